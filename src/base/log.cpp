@@ -1,0 +1,44 @@
+#include "base/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <mutex>
+#include <set>
+
+namespace plisse::log {
+namespace {
+
+spdlog::logger& logger() {
+  static auto instance = [] {
+    auto made = std::make_shared<spdlog::logger>("plisse", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    made->set_pattern("%v");
+    made->set_level(spdlog::level::info);
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void set_level(Level level) {
+  logger().set_level(level == Level::quiet     ? spdlog::level::err
+                     : level == Level::verbose ? spdlog::level::debug
+                                               : spdlog::level::info);
+}
+
+void info(std::string_view text) { logger().debug("{}", text); }
+void notice(std::string_view text) { logger().info("{}", text); }
+void warn(std::string_view text) { logger().warn("warning: {}", text); }
+
+void warn_once(const std::string& key, std::string_view text) {
+  static std::mutex mutex;
+  static std::set<std::string> said;
+  {
+    std::lock_guard lock(mutex);
+    if (!said.insert(key).second) return;
+  }
+  warn(text);
+}
+
+}  // namespace plisse::log
