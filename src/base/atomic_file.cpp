@@ -1,0 +1,129 @@
+// POSIX calls rather than streams: a stream forgets errno, and a full disk may only show at close.
+#include "base/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+
+namespace plisse {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+[[noreturn]] void fail_write(const std::filesystem::path& path, int error) {
+  throw Error(ExitCode::no_output, fmt::format("{}: cannot be written: {}", path.string(), reason(error)));
+}
+
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags)
+      : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+  int number() const { return number_; }
+  // 0 or errno; network file systems report what did not fit only here.
+  int close() {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0 ? 0 : errno;
+  }
+
+ private:
+  int number_;
+};
+
+// 0 or errno.
+int write_all(Descriptor& file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : ENOSPC;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return file.close();
+}
+
+// Short whatever the final name is, so that a name of the longest length allowed still has room for it.
+std::filesystem::path temporary_name(const std::filesystem::path& folder) {
+  static std::atomic<unsigned> counter{0};
+  return folder / fmt::format(".plisse-{}-{}.tmp", ::getpid(), counter++);
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  std::error_code ignored;
+  const auto target = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(path, ignored)
+                          ? std::filesystem::canonical(path, ignored)
+                          : path;
+  const auto kind = std::filesystem::status(target, ignored).type();
+  if (kind == std::filesystem::file_type::directory) fail_write(path, EISDIR);
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
+      kind != std::filesystem::file_type::none) {
+    Descriptor device(target, O_WRONLY);
+    const int error = device.number() < 0 ? errno : write_all(device, bytes);
+    if (error != 0) fail_write(path, error);
+    return;
+  }
+
+  const auto folder = target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+  std::error_code made;
+  std::filesystem::create_directories(folder, made);
+  if (made) fail_write(path, made.value());
+
+  // O_EXCL: a name left by a killed process, or taken by another machine on the same disk, is passed over.
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const auto temporary = temporary_name(folder);
+    Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
+    if (file.number() < 0) {
+      if (errno == EEXIST) continue;
+      fail_write(path, errno);
+    }
+    int error = write_all(file, bytes);
+    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+    if (error == 0) return;
+    ::unlink(temporary.c_str());
+    fail_write(path, error);
+  }
+  fail_write(path, EEXIST);
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  write_whole_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& path) {
+  const auto fail = [&](int error) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read: {}", path.string(), reason(error)));
+  };
+  Descriptor file(path, O_RDONLY);
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail(errno);
+  std::vector<std::uint8_t> bytes;
+  // The size is only a first guess: pipes and files under /proc have none.
+  std::size_t used = 0;
+  bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  for (;;) {
+    const ssize_t count = ::read(file.number(), bytes.data() + used, bytes.size() - used);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(errno);
+    if (count == 0) break;
+    used += static_cast<std::size_t>(count);
+    if (used == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
+}  // namespace plisse

@@ -1,0 +1,23 @@
+// Files read and written whole or not at all: what stands under a final name is always complete.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace plisse {
+
+// Writes beside the final name and renames, so that neither a crash, a full disk nor a second process leaves
+// half a file under `path`. Makes missing folders; keeps a symbolic link and writes where it points; a device
+// or pipe is written straight through (renaming over /dev/null would replace it). Throws Error(no_output)
+// with path and reason, and then nothing new is left behind.
+void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+// Throws Error(bad_input) with path and reason (missing, a folder, not readable).
+std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& path);
+
+}  // namespace plisse
