@@ -8,17 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "config/frames.h"
 #include "config/settings.h"
+#include "gpu/context.h"
 #include "io/import.h"
 #include "scene/animation.h"
 
 namespace plisse {
 
-// What the OpenGL driver calls itself, and which of the devices was taken.
-struct GlInfo {
-  std::string vendor, renderer, version, path;  // path: how the context was made, e.g. "EGL device 0 (…)"
-  bool software = false;
-};
+using GlInfo = gpu::Info;
 
 struct RenderRequest {
   SceneSettings scene;
@@ -74,13 +72,6 @@ struct VerifyReport {
 // Shader against reference, each pass fed the GPU's own inputs (state over time, rule 6). Without a frame selection it
 // takes at most eight frames spread over the clip.
 VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame);
-
-// Frames picked by a selection like "1-48x2,60" or "a..b" out of 1…count, ascending, each once; empty: all.
-// Throws Error(bad_input) for a frame past the end, naming the range there is.
-std::vector<int> select_frames(const std::string& selection, int count);
-
-// "dir", "img_####.png", "img_%04d.png", "img_{frame:04}.png" → the file of a frame; a folder gets frame_####.png.
-std::string frame_path(const std::string& pattern, int frame);
 
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest diagonal.
 double default_wavelength(const Surface& surface);

@@ -1,0 +1,7 @@
+#define AOV_HEIGHT 0
+#define AOV_NORMAL 1
+#define AOV_AMPLITUDE 2
+#define AOV_PHASE 3
+#define AOV_DIRECTION 4
+#define AOV_DEPTH 6
+const float pi = 3.14159265358979;

@@ -1,0 +1,82 @@
+// Crush (Loviscach 2006, 4.2 and 5.1): from a vertex and its neighbours before and after, the strength and direction of
+// the strongest compression, and from these the wave's height and wavenumber. docs/passes.md, "Crush".
+#include "common/items.glsl"
+#include "common/surface.glsl"
+
+layout(std430, binding = 4) readonly buffer RestRows { vec2 rest_rows[]; };  // (S + μE)⁻¹ v_i, an entry a neighbour
+layout(std430, binding = 6) buffer States { vec4 states[]; };                // k in (t, b); 1 − r; g
+layout(std430, binding = 9) buffer Counter { uint fresh_count; };
+uniform uint vertex_count;
+uniform float dead_zone;
+uniform bool always_set;  // relax mode `descent`
+
+const float floor_of_r = 0.05;         // r_min
+const float isotropy = 0.01;           // g below which a direction means little
+
+void main() {
+    uint v = item_index();
+    if (v >= vertex_count) return;
+    Constant constant = constants[v];
+    vec3 x = positions[v].xyz, n = frames[v].normal.xyz, t = frames[v].tangent.xyz, b = cross(n, t);
+
+    // M = (Σ v'⊗v + μE)(S + μE)⁻¹, its rows in m0 and m1.
+    vec2 m0 = constant.regression.xy, m1 = constant.regression.yz;
+    for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
+        vec3 e = positions[neighbours[i]].xyz - x;
+        m0 += dot(t, e) * rest_rows[i];
+        m1 += dot(b, e) * rest_rows[i];
+    }
+    float determinant = m0.x * m1.y - m0.y * m1.x;
+    float sigma1 = 0.5 * (length(vec2(m0.x + m1.y, m1.x - m0.y)) + length(vec2(m0.x - m1.y, m0.y + m1.x)));
+    float sigma2 = sigma1 > 0.0 ? abs(determinant) / sigma1 : 0.0;
+    float r = sigma2;
+
+    // The directions: v1 of the largest stretch by half angles, v2 of the smallest at right angles to it.
+    float P = 0.5 * (m0.x * m0.x + m1.x * m1.x - m0.y * m0.y - m1.y * m1.y);
+    float Q = m0.x * m0.y + m1.x * m1.y;
+    float R = length(vec2(P, Q));
+    vec2 v1 = vec2(1.0, 0.0);
+    if (R > 0.0) {
+        float half_angle = sqrt(0.5 * (1.0 + abs(P) / R));  // the larger of cos θ and sin θ: no cancellation
+        float other = 0.5 * Q / (R * half_angle);
+        v1 = P >= 0.0 ? vec2(half_angle, other) : vec2(abs(other), other < 0.0 ? -half_angle : half_angle);
+    }
+    vec2 v2 = vec2(-v1.y, v1.x);
+    float squares = sigma1 * sigma1 + sigma2 * sigma2;
+    float g = squares > 0.0 ? (sigma1 - sigma2) * (sigma1 + sigma2) / squares : 0.0;
+
+    // k is taken whole the first time, then follows with the certainty of the new direction (contract, "Direction").
+    vec2 k = states[v].xy;
+    bool has_direction = dot(k, k) > 0.0;
+    if (!has_direction && g > isotropy) {
+        k = v2;
+        has_direction = true;
+    } else if (has_direction) {
+        vec2 toward = dot(k, v2) < 0.0 ? -v2 : v2;
+        k = normalize(k + min(g / isotropy, 1.0) * (toward - k));
+    }
+
+    vec2 u1 = sigma1 > 0.0 ? vec2(dot(m0, v1), dot(m1, v1)) / sigma1 : v1;
+    vec2 u2 = determinant < 0.0 ? vec2(u1.y, -u1.x) : vec2(-u1.y, u1.x);
+    vec2 direction = u1 * dot(v1, k) / max(sigma1, floor_of_r) + u2 * dot(v2, k) / max(sigma2, floor_of_r);
+
+    float W = constant.regression.w, mask = constant.modifiers.x, s = 1.0 - r;
+    float h_in_W = 0.25 * sqrt(max(s * (1.0 + r), 0.0)) * smoothstep(0.5 * dead_zone, dead_zone, s) * mask;
+    float weight = clamp((h_in_W - 0.0125) / 0.0625, 0.0, 1.0);
+    vec2 wavenumber = direction / W;
+
+    float status = phases[v].y;
+    if (always_set) {
+        status = set;
+    } else {
+        bool can_wave = mask > 0.0 && has_direction;
+        if (status != idle && !(can_wave && s >= 0.5 * dead_zone)) status = idle;
+        else if (status == idle && can_wave && s > dead_zone) status = fresh;
+        if (status == fresh) atomicAdd(fresh_count, 1u);
+    }
+
+    states[v] = vec4(k, s, g);
+    waves[v] = vec4(wavenumber, h_in_W * W, weight);
+    world_waves[v] = vec4(wavenumber.x * t + wavenumber.y * b, weight);
+    phases[v].y = status;
+}

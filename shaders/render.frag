@@ -1,0 +1,136 @@
+// Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
+// texture (eq. 10, 11). docs/passes.md, "Render". PLAIN: the same surface without waves.
+#include "common/constants.glsl"
+#include "common/shading.glsl"
+
+#define INTERFACE in
+#define FLAT flat in
+#include "common/render_io.glsl"
+
+layout(binding = 0) uniform sampler2D base_colour_map;
+layout(binding = 1) uniform sampler1D profile;   // f, f' over one period
+uniform vec4 base_colour;     // linear
+uniform vec2 texture_size;    // texels; 0: no texture
+uniform float alpha_cutoff;   // below it nothing is drawn; 0 where the material is opaque
+uniform bool has_alpha;
+layout(location = 0) out vec4 colour;
+#ifdef AOV
+uniform int aov;              // one of AOV_… of common/constants.glsl
+uniform vec3 view_forward;
+#endif
+
+#ifndef PLAIN
+struct Wrinkle {
+    float height;
+    vec3 gradient;
+    float amplitude;   // Σ w h fade
+    float lost_slope;  // Σ w ½(2πh|κ|)² m (1 − fade²)
+};
+
+float rise(float s, out float slope) {  // S and S'
+    s = clamp(s, 0.0, 1.0);
+    slope = 6.0 * s * (1.0 - s);
+    return s * s * (3.0 - 2.0 * s);
+}
+
+Wrinkle wrinkle_at(vec3 b) {
+    vec3 dx = dFdx(tau), dy = dFdy(tau);
+    vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
+    vec3 fade = 1.0 - smoothstep(0.25, 0.5, turns_per_pixel);
+    vec3 h = heights.xyz * fade;
+    vec2 a = texture(profile, tau.x).rg, e = texture(profile, tau.y).rg, g = texture(profile, tau.z).rg;
+    vec3 H = h * vec3(a.x, e.x, g.x);
+    vec3 slope = (2.0 * pi) * h * vec3(a.y, e.y, g.y);
+
+    vec3 w;
+    vec3 gradient_weights = vec3(0.0);  // ∂(Σ w H)/∂(α, β, γ)
+#ifdef LINEAR_BLEND
+    w = b;
+    gradient_weights = H;
+#else
+    float slope_ab, slope_bc, slope_ca;
+    float s_ab = rise(b.y + b.z * along.z, slope_ab);
+    float s_bc = rise(b.z + b.x * along.x, slope_bc);
+    float s_ca = rise(b.x + b.y * along.y, slope_ca);
+    vec3 product = b * b.yzx;             // αβ, βγ, γα
+    vec3 edge = product * product;
+    float scale = 1.0 / (edge.x + edge.y + edge.z + 1e-20);
+    edge *= scale;                        // e_AB, e_BC, e_CA over E
+    w = vec3(edge.x * (1.0 - s_ab) + edge.z * s_ca, edge.y * (1.0 - s_bc) + edge.x * s_ab,
+             edge.z * (1.0 - s_ca) + edge.y * s_bc);
+#ifdef FULL_GRADIENT
+    float blend = dot(w, H);
+    // ∂/∂b of Σ e D/E: the edges' own blends D against the whole, and the motion along each edge.
+    vec3 D = vec3(mix(H.x, H.y, s_ab), mix(H.y, H.z, s_bc), mix(H.z, H.x, s_ca)) - blend;
+    vec3 twice = 2.0 * scale * product * D;
+    vec3 step = edge * vec3(slope_ab * (H.y - H.x), slope_bc * (H.z - H.y), slope_ca * (H.x - H.z));
+    gradient_weights = vec3(twice.x * b.y + twice.z * b.z + step.y * along.x + step.z,
+                            twice.x * b.x + twice.y * b.z + step.x + step.z * along.y,
+                            twice.y * b.y + twice.z * b.x + step.x * along.z + step.y);
+#endif
+#endif
+    vec3 ws = w * slope;
+    Wrinkle result;
+    result.height = dot(w, H);
+    result.gradient = ws.x * wavenumber_a + ws.y * wavenumber_b + ws.z * wavenumber_c;
+#ifdef FULL_GRADIENT
+    result.gradient += (gradient_weights.y - gradient_weights.x) * gradient_beta +
+                       (gradient_weights.z - gradient_weights.x) * gradient_gamma;
+#endif
+    result.amplitude = dot(w, h);
+    vec3 steepness = heights.xyz * (2.0 * pi) *
+                     sqrt(vec3(dot(wavenumber_a, wavenumber_a), dot(wavenumber_b, wavenumber_b), dot(wavenumber_c, wavenumber_c)));
+    result.lost_slope = dot(w, steepness * steepness * (1.0 - fade * fade)) * 0.5 * surface.w;
+    return result;
+}
+#endif
+
+void main() {
+    vec3 to_eye = eye.xyz - x;
+    vec3 v = normalize(to_eye);
+    float side = dot(plane, to_eye) < 0.0 ? -1.0 : 1.0;
+    vec3 n = normalize(normal), ns = side * n, N = ns;
+    float lost_slope = 0.0, occlusion = 1.0;
+    vec2 at = uv;
+    vec2 across = dFdx(uv) * texture_size, down = dFdy(uv) * texture_size;
+#ifndef PLAIN
+    vec3 b = vec3(1.0 - weights.x - weights.y, weights);
+    Wrinkle wrinkle = Wrinkle(0.0, vec3(0.0), 0.0, 0.0);
+    if (heights.x + heights.y + heights.z > 0.0) {
+        wrinkle = wrinkle_at(b);
+        N = side * normalize(n - wrinkle.gradient);
+        lost_slope = wrinkle.lost_slope;
+        float height = side * wrinkle.height;
+        if (wrinkle.amplitude > 0.0) {
+            float steep = 2.0 * pi * wrinkle.amplitude * heights.w;
+            float depth = clamp(0.5 - 0.5 * height / wrinkle.amplitude, 0.0, 1.0);
+            occlusion = max(0.0, 1.0 - surface.y * depth * (1.0 - inversesqrt(1.0 + steep * steep)));
+        }
+        float c = dot(v, ns);
+        vec3 shift = (v - c * ns) * (c / (c * c + 0.1) * height * surface.z * smoothstep(0.0, 0.2, c));
+        float limit = 0.25 / heights.w, size = length(shift);
+        if (size > limit) shift *= limit / size;
+        at += vec2(dot(gradient_u, shift), dot(gradient_v, shift));
+    }
+#endif
+    vec4 albedo = base_colour;
+    if (texture_size.x > 0.0) {
+        float level = 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+        albedo *= textureLod(base_colour_map, at, level);
+    }
+    if (albedo.a < alpha_cutoff) discard;
+#ifdef AOV
+    colour = vec4(0.0, 0.0, 0.0, 1.0);
+    if (aov == AOV_NORMAL) colour.rgb = N;
+    if (aov == AOV_DEPTH) colour.rgb = vec3(dot(x - eye.xyz, view_forward));
+#ifndef PLAIN
+    if (aov == AOV_HEIGHT) colour.rgb = vec3(wrinkle.height);
+    if (aov == AOV_AMPLITUDE) colour.rgb = vec3(wrinkle.amplitude);
+    if (aov == AOV_PHASE) colour.rgb = 2.0 * pi * (tau.x - round(tau.x)) * vec3(1.0);
+    if (aov == AOV_DIRECTION) colour.rgb = heights.w > 0.0 ? normalize(wavenumber_a) : vec3(0.0);
+#endif
+#else
+    float alpha = has_alpha ? albedo.a : 1.0;
+    colour = vec4(shade(albedo.rgb, x, N, ns, v, lost_slope, occlusion) * alpha, alpha);
+#endif
+}

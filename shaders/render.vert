@@ -1,0 +1,68 @@
+// Render, vertices (Loviscach 2006, 6): every triangle on its own, its three corners pulled by index, so that each pixel
+// knows the three waves it lies between. docs/passes.md, "Render".
+#include "common/surface.glsl"
+#include "common/scene.glsl"
+
+struct RenderVertex {
+    vec4 normal;    // the rest normal as components of (t, b, n); then the id of the welded vertex, as bits
+    vec2 uv;
+    vec2 unused;
+};
+layout(std430, binding = 4) readonly buffer RenderVertices { RenderVertex render_vertices[]; };
+layout(std430, binding = 6) readonly buffer Triangles { uint triangles[]; };
+
+#define INTERFACE out
+#define FLAT flat out
+#include "common/render_io.glsl"
+
+vec3 safe_divide(vec3 p, float q) { return q > 0.0 ? p / q : vec3(0.0); }
+
+void main() {
+    uint first = 3u * uint(gl_VertexID / 3), corner = uint(gl_VertexID % 3);
+    uint id[3];
+    vec3 p[3], n[3], t[3];
+    vec2 uvs[3];
+    for (uint i = 0u; i < 3u; ++i) {
+        RenderVertex vertex = render_vertices[triangles[first + i]];
+        id[i] = floatBitsToUint(vertex.normal.w);
+        p[i] = positions[id[i]].xyz;
+        t[i] = frames[id[i]].tangent.xyz;
+        n[i] = frames[id[i]].normal.xyz;
+        uvs[i] = vertex.uv;
+        if (i == corner) {
+            vec3 c = vertex.normal.xyz;
+            normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
+        }
+    }
+    x = p[corner];
+    uv = uvs[corner];
+    gl_Position = view_projection * vec4(x, 1.0);
+
+    vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
+    plane = dot(area, n[0] + n[1] + n[2]) < 0.0 ? -area : area;
+#ifndef PLAIN
+    weights = vec2(corner == 1u, corner == 2u);
+    vec3 wavenumbers[3];
+    vec3 h;
+    for (uint i = 0u; i < 3u; ++i) {
+        vec4 wave = waves[id[i]];
+        wavenumbers[i] = wave.x * t[i] + wave.y * cross(n[i], t[i]);
+        h[i] = wave.z;
+        // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
+        tau[i] = dot(wavenumbers[i], x - p[i]) + (phases[id[i]].x + constants[id[i]].modifiers.y) * (0.5 / pi);
+    }
+    wavenumber_a = wavenumbers[0];
+    wavenumber_b = wavenumbers[1];
+    wavenumber_c = wavenumbers[2];
+    float largest = max(dot(wavenumber_a, wavenumber_a), max(dot(wavenumber_b, wavenumber_b), dot(wavenumber_c, wavenumber_c)));
+    heights = vec4(h, sqrt(largest));
+    float square = dot(area, area);
+    gradient_beta = safe_divide(cross(c, area), square);
+    gradient_gamma = safe_divide(cross(area, b), square);
+    vec3 d = p[2] - p[1];
+    along = vec3(safe_divide(vec3(dot(-b, d)), dot(d, d)).x, safe_divide(vec3(dot(-d, -c)), dot(c, c)).x,
+                 safe_divide(vec3(dot(c, b)), dot(b, b)).x);
+    gradient_u = (uvs[1].x - uvs[0].x) * gradient_beta + (uvs[2].x - uvs[0].x) * gradient_gamma;
+    gradient_v = (uvs[1].y - uvs[0].y) * gradient_beta + (uvs[2].y - uvs[0].y) * gradient_gamma;
+#endif
+}

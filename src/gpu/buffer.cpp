@@ -1,0 +1,34 @@
+#include "gpu/buffer.h"
+
+#include <epoxy/gl.h>
+
+#include "gpu/context.h"
+
+namespace plisse::gpu {
+
+Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
+  glCreateBuffers(1, &id_);
+  // A buffer of no bytes is an error in OpenGL, and a mesh without neighbours is not.
+  const GLsizeiptr size = static_cast<GLsizeiptr>(bytes ? bytes : 16);
+  glNamedBufferStorage(id_, size, bytes ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+  if (!data || !bytes) glClearNamedBufferData(id_, GL_R8, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  check("while making a buffer");
+}
+
+Buffer::~Buffer() {
+  if (id_) glDeleteBuffers(1, &id_);
+}
+
+void Buffer::bind_storage(int binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+void Buffer::bind_uniform(int binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+
+void Buffer::write(const void* data, std::size_t bytes, std::size_t offset) {
+  if (bytes) glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (bytes) glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+}  // namespace plisse::gpu

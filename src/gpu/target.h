@@ -1,0 +1,40 @@
+// Where frames are drawn: colour and depth, multisampled if asked, resolved and read back.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace plisse::gpu {
+
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;  // pixels, from the lower left corner
+  bool empty() const { return width <= 0 || height <= 0; }
+};
+
+class Target {
+ public:
+  enum class Format { srgb8, rgba32f };
+  Target() = default;
+  // samples: 1 or 4. Throws Error(try_again) where the driver cannot.
+  Target(int width, int height, int samples, Format format);
+  ~Target();
+  Target(Target&& other) noexcept { *this = std::move(other); }
+  Target& operator=(Target&& other) noexcept;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  void bind() const;
+  // Averages the samples of one rectangle (the rest of the resolved picture keeps what `fill` put there).
+  void resolve(const Rectangle& area) const;
+  // Rows from top to bottom. Reads the resolved picture.
+  std::vector<std::uint8_t> read_rgba8() const;
+  std::vector<float> read_rgba32f() const;
+
+ private:
+  unsigned draw_ = 0, read_ = 0;                              // framebuffers; the same where samples = 1
+  unsigned colour_ = 0, depth_ = 0, resolved_ = 0;            // renderbuffers
+  int width_ = 0, height_ = 0, samples_ = 1;
+};
+
+}  // namespace plisse::gpu
