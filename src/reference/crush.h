@@ -1,0 +1,61 @@
+// Reference of the crush pass (Loviscach 2006, sections 4.2 and 5.1; docs/passes.md, "Crush"): how strongly
+// and in which direction the surface is compressed at every vertex, and the wave that takes up the lost
+// length.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+#include "reference/topology.h"
+
+namespace plisse::reference {
+
+enum class Status : std::uint8_t { idle = 0, set = 1, fresh = 2 };
+
+struct CrushSettings {
+  double dead_zone = 0.005;  // δ, of 1 − r
+  bool smooth = true;        // relax mode `smooth`; false: `descent`, where every vertex is always set
+};
+
+// Carried from frame to frame.
+struct CrushState {
+  Eigen::Vector2d direction{0, 0};  // k in (t, b), unit; (0, 0) = unset
+  Status status = Status::idle;
+};
+
+struct CrushResult {
+  Eigen::Matrix2d M;                  // (t, b) → (t', b')
+  double r = 1;                       // σ₂, the least stretch
+  double stretch = 1;                 // σ₁, the greatest stretch
+  double gap = 0;                     // g = (σ₁² − σ₂²)/(σ₁² + σ₂²)
+  Eigen::Vector2d minimum{0, 1};      // k̂ of this pose alone; its sign is as k's where k was set, else free
+  Eigen::Vector2d direction{0, 0};    // k, the new state
+  Eigen::Vector2d wave_vector{0, 0};  // k' in (t', b'), of length 1/r for k = k̂
+  Eigen::Vector2d wavenumber{0, 0};   // κ = k'/W, turns per length
+  double height = 0;                  // h, a length
+  double weight = 0;                  // w in relax, 0…1
+  Status status = Status::idle;       // the new state
+};
+
+// The linear regression of eq. 1 with its regularisation: for v' = Fv, M = F + μ(E − F)(S + μE)⁻¹. Columns
+// are v_i and v'_i; without any length in v it is E.
+Eigen::Matrix2d regression(const Eigen::Matrix2Xd& v, const Eigen::Matrix2Xd& posed);
+
+// k' = M⁻ᵀk with singular values floored at 0.05: from M's singular value decomposition.
+Eigen::Vector2d wave_vector(const Eigen::Matrix2d& M, const Eigen::Vector2d& k);
+
+// Eq. 2 with the dead zone: h/W of mask 1.
+double relative_height(double r, double dead_zone);
+
+// Everything of one vertex, from its regression onward.
+CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mask,
+                         const CrushSettings& settings, const CrushState& previous);
+
+// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is last frame's state.
+std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
+                               const Eigen::Matrix3Xd& positions, const Frames& frames,
+                               const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,
+                               const CrushSettings& settings, const std::vector<CrushState>& previous);
+
+}  // namespace plisse::reference

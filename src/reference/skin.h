@@ -1,0 +1,69 @@
+// Reference of the skin pass (Loviscach 2006, section 4.1; docs/passes.md, "Skin"): posed positions and
+// frames.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "reference/topology.h"
+
+namespace plisse::reference {
+
+struct Influences {
+  std::array<std::uint32_t, 8> entry{};  // index into the palette
+  std::array<double, 8> weight{};        // α, sum 1; 0 = unused
+};
+
+// What the vertices are made of and does not change over time.
+struct SkinModel {
+  Eigen::Matrix3Xd bind;                 // x_bind
+  Eigen::Matrix3Xd bind_normal;          // unit; used only where the triangles give no normal
+  std::vector<Influences> influences;    // one per vertex
+  std::vector<Eigen::Matrix3Xd> deltas;  // δ_t, one 3 × V array per morph target
+};
+
+// What changes: affine maps (upper three rows of the 4 × 4) and one weight per morph target.
+struct SkinPose {
+  std::vector<Eigen::Matrix4d> palette;
+  std::vector<double> morph_weights;
+};
+
+// Σ αₖ Mₖ of one vertex.
+Eigen::Matrix4d blended_matrix(const SkinModel& model, const SkinPose& pose, Eigen::Index vertex);
+
+// x' = Σ αₖ Mₖ (x_bind + Σ_t m_t δ_t).
+Eigen::Matrix3Xd skin_positions(const SkinModel& model, const SkinPose& pose);
+
+// cof(A): columns c₁×c₂, c₂×c₀, c₀×c₁ for the columns c of A; cof(A)(u×v) = Au × Av.
+Eigen::Matrix3d cofactor(const Eigen::Matrix3d& A);
+
+// n' by areas; where the areas cancel to under 1e-6 of Σ|e||e|, cof(linear[v])·bind_normal, and where that is
+// zero as well, bind_normal. `linear` holds Σ αₖ Mₖ's linear part per vertex.
+Eigen::Matrix3Xd skin_normals(const Topology& topology, const Eigen::Matrix3Xd& positions,
+                              const std::vector<Eigen::Matrix3d>& linear,
+                              const Eigen::Matrix3Xd& bind_normal);
+
+// The neighbour t points to: the longest part in the tangent plane of the rest pose, ties to the smaller id;
+// the vertex itself where it has no neighbour.
+std::vector<std::uint32_t> tangent_neighbours(const Topology& topology, const Eigen::Matrix3Xd& rest_normals);
+
+// Tangents toward those neighbours, made perpendicular to the normals (docs/passes.md for where there is
+// none).
+Eigen::Matrix3Xd skin_tangents(const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& normals,
+                               const std::vector<std::uint32_t>& tangent_neighbour);
+
+// Frames of the rest pose: area normals of topology.rest with bind_normal as the fallback.
+Frames rest_frames(const Topology& topology, const Eigen::Matrix3Xd& bind_normal);
+
+struct SkinResult {
+  Eigen::Matrix3Xd positions;  // x'
+  Frames frames;               // n', t'
+};
+
+// The whole pass. `tangent_neighbour` comes from the rest pose.
+SkinResult skin(const Topology& topology, const SkinModel& model, const SkinPose& pose,
+                const std::vector<std::uint32_t>& tangent_neighbour);
+
+}  // namespace plisse::reference
