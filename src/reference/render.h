@@ -1,0 +1,40 @@
+// Reference of the render pass (Loviscach 2006, section 6; docs/passes.md, "Render"): a rasteriser in double
+// precision that visits pixels at their centres. waves.h has the height field, shading.h the scene and the
+// shading of a pixel.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+#include "reference/shading.h"
+
+namespace plisse::reference {
+
+// Rows from the top of the picture downward. Entries are row·width + column.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<Eigen::Vector3d> colour;   // linear; 0 where nothing is seen
+  std::vector<int> triangle;             // the visible triangle, −1 none (coverage)
+  std::vector<double> depth;             // z/w, −1…1; 2 none
+  std::vector<std::uint8_t> silhouette;  // 1: what this pixel sees may rightly differ (below)
+};
+
+// Renders at pixel centres (column + ½, row + ½) with a depth test, no clipping needed in front of the eye.
+//
+// A pixel is `silhouette` where an honest rasteriser may see something else, because vertices snap to 1/256
+// of a pixel and depths are rounded. With reach = 0.01 pixel and a triangle "near" where the centre is within
+// reach of it:
+//  1. a pixel of the 4-neighbourhood differs in coverage; or
+//  2. it is not covered, yet a triangle is near; or
+//  3. a near triangle other than the visible one is in front of it, or behind by less than 1e-6 + what both
+//  depths
+//     change within reach, unless the two share an edge and depth agrees to that tolerance (a surface going
+//     on); or
+//  4. the centre is within reach of an edge of the visible triangle, beyond which the surface does not go on
+//  in such a
+//     neighbour; or
+//  5. its alpha is within 0.02 of the cut (cut pixels and those that stay).
+Picture render(const Scene& scene, int width, int height);
+
+}  // namespace plisse::reference
