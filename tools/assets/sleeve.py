@@ -1,4 +1,4 @@
-"""The demo: a cotton sleeve that bends at the elbow, about 470 welded points.
+"""The demo: a cotton sleeve that bends at the elbow, 450 welded points.
 
 The arm runs along s, from the shoulder (0) to the wrist (0.62 m); phi goes round it, 0 at the inner elbow, and the uv
 seam is at phi = π. It is bound half bent, as sleeves are cut, so that neither end of the motion is extreme: four joints
@@ -13,15 +13,15 @@ import textures
 
 FRAMES, RATE = 72, 24
 AROUND = 18
-BOUND_BEND = 32.0                       # degrees; where the cloth is at rest
+BOUND_BEND = 40.0                       # degrees; where the cloth is at rest
 STRAIGHT, BENT, TWIST = 10.0, 100.0, 20.0
-ELBOW = 0.315
-SPACING = 0.066                         # between the four joints of the bend
+ELBOW = 0.300
+SPACING = 0.070                         # between the four joints of the bend
 BEND_AT = [ELBOW + SPACING * (k - 1.5) for k in range(4)]
-BEND_REACH = 0.062                      # half the width of one joint's blend
+BEND_REACH = 0.066                      # half the width of one joint's blend
 TWIST_AT, TWIST_REACH = [0.455, 0.515], 0.055
-SLIDE, PUSH = 0.010, 0.007              # metres: forearm toward the elbow, cuff up the arm, when fully bent
-LEAN, ROLL, SHOULDER_LIFT = 4.0, 38.0, 8.0   # degrees
+SLIDE, PUSH = 0.006, 0.006              # metres: forearm toward the elbow, cuff up the arm, when fully bent
+LEAN, ROLL, SHOULDER_LIFT = 4.0, 22.0, 10.0   # degrees
 
 PITCH = 0.009                           # of the print
 TILE = 4 * PITCH
@@ -58,15 +58,19 @@ def on_line(s):
 
 def half_widths(s):
     """In the plane of the bend, and across it: a sleeve without much arm in it is flat, and fuller at the shoulder."""
-    inner = curve([(0.0, 0.068), (0.14, 0.060), (0.31, 0.047), (0.42, 0.049), (0.515, 0.048), (0.553, 0.039)], s)
+    inner = curve([(0.0, 0.068), (0.14, 0.060), (0.30, 0.045), (0.42, 0.048), (0.515, 0.048), (0.553, 0.039)], s)
     across = curve([(0.0, 0.076), (0.14, 0.069), (0.31, 0.062), (0.42, 0.058), (0.515, 0.054), (0.553, 0.045)], s)
     return inner, across
 
 
+def skew(s, phi):
+    """How much further along the arm the cloth is cut: the shoulder end runs up to a cap on the top and the front."""
+    return -0.028 * math.cos(phi - 0.5) * (1 - smoothstep(0.0, 0.18, s))
+
+
 def place(s, phi, thicker=0.0, plain=False):
-    """A point of the bound sleeve. Its shoulder end is cut askew, longer on the outside, as an armhole asks for."""
-    skew = 0.030 * math.cos(phi) * (1 - smoothstep(0.0, 0.16, s))
-    centre, angle = on_line(s + skew)
+    """A point of the bound sleeve."""
+    centre, angle = on_line(s + skew(s, phi))
     inner, across = half_widths(s)
     # Broad, shallow dents: cloth that has been worn.
     worn = 0.0 if plain else 0.028 * math.sin(2 * phi + 9 * s + 0.6) + 0.020 * math.sin(3 * phi - 21 * s)
@@ -126,9 +130,9 @@ def pose(model, frame):
 def surface():
     noise, cloth = Noise(7), Cloth()
     shoulder = [(0.000, 0.0005), (0.003, 0.0030), (0.019, 0.0030)]
-    body = [0.022, 0.048, 0.080, 0.114, 0.146, 0.174, 0.200, 0.225, 0.249, 0.273, 0.297, 0.321, 0.345, 0.370, 0.397,
-            0.426, 0.456, 0.487, 0.518, 0.541, 0.553]
-    cuff = [(0.5545, 0.0035), (0.588, 0.0045), (0.6185, 0.0045), (0.6195, 0.0010)]
+    body = [0.022, 0.055, 0.095, 0.135, 0.170, 0.200, 0.227, 0.252, 0.276, 0.300, 0.324, 0.348, 0.373, 0.400, 0.430,
+            0.462, 0.495, 0.530, 0.553]
+    cuff = [(0.5545, 0.0035), (0.6185, 0.0045), (0.6195, 0.0010)]
     rows = [(s, thicker, False) for s, thicker in shoulder] + [(s, 0.0, 1 < i < len(body) - 2)
                                                                for i, s in enumerate(body)]
     rows += [(s, thicker, False) for s, thicker in cuff]
@@ -147,22 +151,24 @@ def surface():
             row.append((cloth.point(place(along, phi, thicker, plain), influences(along)), along, round_))
         points.append(row)
 
-    def corners(row, scale):
+    def corners(row, scale, askew):
         """One more than points: the seam's twice. uv in tiles of cloth, measured from the inner line."""
         s = sum(along for _, along, _ in row) / len(row)
         inner, across = half_widths(s)
         girth = 2 * math.pi * math.sqrt((inner * inner + across * across) / 2)
         closed = row + [(row[0][0], row[0][1], row[0][2] + 1)]
-        return [(point, (girth * round_ * scale[0], along * scale[1])) for point, along, round_ in closed]
+        cut = [skew(along, 2 * math.pi * round_) if askew else 0.0 for _, along, round_ in closed]
+        return [(point, (girth * round_ * scale[0], (along + more) * scale[1]))
+                for (point, along, round_), more in zip(closed, cut)]
 
     first, last = len(shoulder), len(shoulder) + len(body) - 1
     whole = (1 / TILE, 1 / TILE)
     band = (1 / 0.02, 0.5 / 0.022)
     # Seen from outside with s to the right, phi runs downward: so rows run the other way round.
-    parts = [('shoulder', points[:first + 1], band), ('sleeve', points[first:last + 1], whole),
-             ('cuff', points[last:], whole)]
-    for name, part, scale in parts:
-        cloth.grid(name, [list(reversed(corners(row, scale))) for row in part])
+    parts = [('shoulder', points[:first + 1], band, False), ('sleeve', points[first:last + 1], whole, True),
+             ('cuff', points[last:], whole, True)]
+    for name, part, scale, askew in parts:
+        cloth.grid(name, [list(reversed(corners(row, scale, askew))) for row in part])
     return cloth
 
 
@@ -183,10 +189,10 @@ def build():
     bound = model.globals()[0]
     cloth.points = cloth.posed([bound] * len(model.joints))
 
-    light, dark = (0.47, 0.475, 0.475), (0.21, 0.255, 0.31)
+    light, dark = (0.45, 0.455, 0.455), (0.23, 0.27, 0.32)
     check = textures.gingham(512, 4, light, dark, pitch=4, seed=11)
     solid = textures.plain(128, (0.10, 0.125, 0.16), pitch=4, seed=12)
-    seam = textures.stitched(128, (0.085, 0.105, 0.135), (0.38, 0.38, 0.36), seed=13)
+    seam = textures.stitched(128, (0.085, 0.105, 0.135), (0.24, 0.245, 0.24), seed=13)
     for part, material, picture in (('shoulder', 'seam', seam), ('sleeve', 'cloth', check), ('cuff', 'cuff', solid)):
         cloth.emit(model, part, model.material(material, picture))
 
