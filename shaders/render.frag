@@ -63,10 +63,10 @@ Wrinkle wrinkle_at(vec3 b) {
     // ∂/∂b of Σ e D/E: the edges' own blends D against the whole, and the motion along each edge.
     vec3 D = vec3(mix(H.x, H.y, s_ab), mix(H.y, H.z, s_bc), mix(H.z, H.x, s_ca)) - blend;
     vec3 twice = 2.0 * scale * product * D;
-    vec3 step = edge * vec3(slope_ab * (H.y - H.x), slope_bc * (H.z - H.y), slope_ca * (H.x - H.z));
-    gradient_weights = vec3(twice.x * b.y + twice.z * b.z + step.y * along.x + step.z,
-                            twice.x * b.x + twice.y * b.z + step.x + step.z * along.y,
-                            twice.y * b.y + twice.z * b.x + step.x * along.z + step.y);
+    vec3 motion = edge * vec3(slope_ab * (H.y - H.x), slope_bc * (H.z - H.y), slope_ca * (H.x - H.z));
+    gradient_weights = vec3(twice.x * b.y + twice.z * b.z + motion.y * along.x + motion.z,
+                            twice.x * b.x + twice.y * b.z + motion.x + motion.z * along.y,
+                            twice.y * b.y + twice.z * b.x + motion.x * along.z + motion.y);
 #endif
 #endif
     vec3 ws = w * slope;

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <chrono>
+#include <utility>
 
 namespace plisse::gpu {
 namespace {

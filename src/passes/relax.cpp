@@ -1,0 +1,84 @@
+#include "passes/relax.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/constants.hpp>
+#include <utility>
+
+namespace plisse::passes {
+namespace {
+gpu::Program program(const char* define, const std::string& shader_folder) {
+  return gpu::Program({"relax.comp"}, {{define, "1"}}, shader_folder);
+}
+void set_count(const gpu::Program& program, std::size_t count) {
+  program.use();
+  glUniform1ui(program.uniform("vertex_count"), static_cast<GLuint>(count));
+}
+}  // namespace
+
+RelaxPass::RelaxPass(const std::string& shader_folder)
+    : descent_(program("DESCENT", shader_folder)),
+      spread_(program("SPREAD", shader_folder)),
+      rotors_(program("ROTORS", shader_folder)),
+      smooth_(program("SMOOTH", shader_folder)),
+      finish_(program("FINISH", shader_folder)) {}
+
+void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
+  bind(surface);
+  fresh_ = 0;
+  if (options.onset) {
+    surface.counter.read(&fresh_, sizeof fresh_);
+    if (fresh_ > 0) {
+      set_count(spread_, surface.vertex_count);
+      for (int i = 0; i < options.onset_rounds; ++i) round(spread_, surface);
+      std::uint32_t left = 0;
+      surface.counter.read(&left, sizeof left);
+      if (left > 0) smooth(surface, options.smoothing_rounds);
+    }
+  }
+  set_count(descent_, surface.vertex_count);
+  glUniform1f(descent_.uniform("step_size"), static_cast<float>(options.epsilon / (2 * glm::pi<double>() * glm::pi<double>())));
+  for (int i = 0; i < options.rounds; ++i) round(descent_, surface);
+}
+
+void RelaxPass::bind(SurfaceBuffers& surface) {
+  surface.positions.bind_storage(0);
+  surface.offsets.bind_storage(2);
+  surface.neighbours.bind_storage(3);
+  surface.world_waves.bind_storage(8);
+  surface.counter.bind_storage(9);
+  surface.phases.bind_storage(10);
+}
+
+void RelaxPass::round(const gpu::Program& step, SurfaceBuffers& surface) {
+  surface.phases.bind_storage(10);
+  surface.phases_next.bind_storage(11);
+  gpu::dispatch(step, surface.vertex_count);
+  std::swap(surface.phases, surface.phases_next);
+}
+
+void RelaxPass::smooth(SurfaceBuffers& surface, int rounds) {
+  if (numbers_.bytes() == 0) {
+    numbers_ = gpu::Buffer(surface.phases.bytes());
+    numbers_next_ = gpu::Buffer(surface.phases.bytes());
+    rotor_list_ = gpu::Buffer(surface.neighbours.bytes() * 4);
+  }
+  surface.phases.bind_storage(10);
+  rotor_list_.bind_storage(4);
+  numbers_.bind_storage(12);
+  numbers_next_.bind_storage(13);
+  set_count(rotors_, surface.vertex_count);
+  gpu::dispatch(rotors_, surface.vertex_count);
+  set_count(smooth_, surface.vertex_count);
+  for (int i = 0; i < rounds; ++i) {
+    numbers_.bind_storage(12);
+    numbers_next_.bind_storage(13);
+    gpu::dispatch(smooth_, surface.vertex_count);
+    std::swap(numbers_, numbers_next_);
+  }
+  numbers_.bind_storage(12);
+  set_count(finish_, surface.vertex_count);
+  gpu::dispatch(finish_, surface.vertex_count);
+}
+
+}  // namespace plisse::passes

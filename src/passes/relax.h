@@ -1,0 +1,37 @@
+// Relax: aligns the phases of neighbouring waves (docs/passes.md, "Relax"; Loviscach 2006, 5.2).
+#pragma once
+
+#include <string>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "passes/surface_buffers.h"
+
+namespace plisse::passes {
+
+struct RelaxOptions {
+  int rounds = 1;               // descent rounds
+  double epsilon = 13.2;        // ε of eq. 6
+  bool onset = true;            // mode `smooth`: rule 3 of the state over time
+  int onset_rounds = 8;         // P
+  int smoothing_rounds = 300;   // S
+};
+
+class RelaxPass {
+ public:
+  explicit RelaxPass(const std::string& shader_folder);
+  // Reads positions, world_waves and surface.counter (the fresh vertices); advances phases.
+  void run(SurfaceBuffers& surface, const RelaxOptions& options);
+  // Vertices that got a phase in the last run: no work is done for them when there are none.
+  std::uint32_t fresh_in_last_run() const { return fresh_; }
+
+ private:
+  void bind(SurfaceBuffers& surface);
+  void round(const gpu::Program& program, SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps
+  void smooth(SurfaceBuffers& surface, int rounds);
+  gpu::Program descent_, spread_, rotors_, smooth_, finish_;
+  gpu::Buffer numbers_, numbers_next_, rotor_list_;                  // made at the first onset
+  std::uint32_t fresh_ = 0;
+};
+
+}  // namespace plisse::passes

@@ -1,0 +1,329 @@
+#include "passes/render.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "gpu/context.h"
+
+namespace plisse::passes {
+namespace {
+
+constexpr int ground_size = 256, top_size = 512;
+constexpr double ground_reach = 3.2;    // half the ground map's side, in radii of the model
+constexpr double contact_reach = 0.05;  // how far above the floor the surface still darkens it, in radii
+
+// std140 layout of common/scene.glsl.
+struct SceneBlock {
+  glm::mat4 view_projection, shadow_matrix;
+  glm::vec4 eye, up;
+  struct {
+    glm::vec4 direction, colour;
+  } lights[3];
+  glm::vec4 ambient, surface, shadow_texel;
+};
+
+glm::vec4 wide(const glm::dvec3& v, double w = 0) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+// A parallel projection along `direction` (the way the light goes) that holds the sphere (centre, radius): world → clip.
+glm::dmat4 parallel_projection(const glm::dvec3& centre, double radius, const glm::dvec3& direction) {
+  const glm::dvec3 helper = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  return glm::ortho(-radius, radius, -radius, radius, 0.0, 2 * radius) *
+         glm::lookAt(centre - radius * direction, centre, helper);
+}
+
+glm::dmat4 clip_to_unit() {
+  return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(0.5));
+}
+
+void uniform(const gpu::Program& p, const char* name, float value) { glUniform1f(p.uniform(name), value); }
+void uniform(const gpu::Program& p, const char* name, int value) { glUniform1i(p.uniform(name), value); }
+void uniform(const gpu::Program& p, const char* name, const glm::vec2& v) { glUniform2fv(p.uniform(name), 1, &v.x); }
+void uniform(const gpu::Program& p, const char* name, const glm::dvec3& v) {
+  const glm::vec3 f(v);
+  glUniform3fv(p.uniform(name), 1, &f.x);
+}
+void uniform(const gpu::Program& p, const char* name, const glm::vec4& v) { glUniform4fv(p.uniform(name), 1, &v.x); }
+void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
+  const glm::mat4 f(m);
+  glUniformMatrix4fv(p.uniform(name), 1, GL_FALSE, glm::value_ptr(f));
+}
+
+// The floor's own axes and the corner of the ground map.
+struct GroundFrame {
+  glm::dvec3 across, along, origin;
+  double side;
+  explicit GroundFrame(const View& view) {
+    const glm::dvec3 up = view.up;
+    across = glm::normalize(glm::cross(std::abs(up.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1), up));
+    along = glm::cross(up, across);
+    side = 2 * ground_reach * view.bounds_radius;
+    const glm::dvec3 foot = view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, up)) * up;
+    origin = foot - 0.5 * side * (across + along);
+  }
+};
+
+}  // namespace
+
+RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<DrawPart> parts,
+                       const std::vector<std::vector<TextureLevel>>& textures, const std::string& shader_folder)
+    : look_(look), profile_(profile), parts_(std::move(parts)), shader_folder_(shader_folder) {
+  gpu::Defines defines;
+  if (look.plain) defines.emplace_back("PLAIN", "1");
+  if (look.shadows) defines.emplace_back("SHADOWS", "1");
+  if (!look.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
+  if (look.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
+  surface_ = gpu::Program({"render.vert", look.phong ? "phong.frag" : "render.frag"}, defines, shader_folder);
+  if (look.shadows || look.ground) depth_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
+  if (look.wireframe) lines_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
+  if (look.ground) {
+    backdrop_ = gpu::Program({"backdrop.vert", "backdrop.frag"}, {}, shader_folder);
+    ground_cast_ = gpu::Program({"ground.comp"}, {{"CAST", "1"}}, shader_folder);
+    ground_blur_ = gpu::Program({"ground.comp"}, {{"BLUR", "1"}}, shader_folder);
+    glCreateTextures(GL_TEXTURE_2D, 2, ground_textures_.data());
+    for (unsigned texture : ground_textures_) {
+      glTextureStorage2D(texture, 1, GL_RG16F, ground_size, ground_size);
+      glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+      glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+      glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+      glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    top_texture_ = depth_map(top_framebuffer_, top_size);
+  }
+  if (look.shadows || look.ground) {
+    shadow_texture_ = depth_map(shadow_framebuffer_, shadow_size);
+    glTextureParameteri(shadow_texture_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTextureParameteri(shadow_texture_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  }
+  for (const auto& levels : textures) textures_.emplace_back(levels);
+  scene_ = gpu::Buffer(sizeof(SceneBlock));
+  glCreateVertexArrays(1, &vertex_array_);
+
+  std::vector<glm::vec2> table(Profile::size);
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = glm::vec2(profile.f[i], profile.derivative[i]);
+  glCreateTextures(GL_TEXTURE_1D, 1, &profile_texture_);
+  glTextureStorage1D(profile_texture_, 1, GL_RG32F, Profile::size);
+  glTextureSubImage1D(profile_texture_, 0, 0, Profile::size, GL_RG, GL_FLOAT, table.data());
+  glTextureParameteri(profile_texture_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(profile_texture_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(profile_texture_, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  gpu::check("while preparing to render");
+}
+
+RenderPass::~RenderPass() {
+  const unsigned textures[] = {profile_texture_, shadow_texture_, top_texture_, ground_textures_[0], ground_textures_[1]};
+  glDeleteTextures(5, textures);
+  const unsigned framebuffers[] = {shadow_framebuffer_, top_framebuffer_};
+  glDeleteFramebuffers(2, framebuffers);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+unsigned RenderPass::depth_map(unsigned& framebuffer, int size) {
+  unsigned texture = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+  glTextureStorage2D(texture, 1, GL_DEPTH_COMPONENT32F, size, size);
+  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glCreateFramebuffers(1, &framebuffer);
+  glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, texture, 0);
+  glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+  return texture;
+}
+
+void RenderPass::write_scene(const View& view) {
+  SceneBlock block{};
+  block.view_projection = glm::mat4(view.view_projection);
+  block.shadow_matrix = glm::mat4(shadow_matrix_);
+  block.eye = wide(view.eye, 1);
+  block.up = wide(view.up);
+  for (std::size_t i = 0; i < 3; ++i) {
+    block.lights[i].direction = wide(view.lights[i].direction);
+    block.lights[i].colour = wide(view.lights[i].colour);
+  }
+  block.ambient = wide(view.ambient, look_.sheen);
+  block.surface = glm::vec4(std::pow(look_.roughness, 4), look_.cavity, look_.parallax, profile_.slope_variance);
+  block.shadow_texel = glm::vec4(1.0 / shadow_size, shadow_texel_, shadow_offset, 0);
+  scene_.write(&block, sizeof block);
+  scene_.bind_uniform(1);
+}
+
+void RenderPass::bind_surface(const SurfaceBuffers& surface) {
+  surface.positions.bind_storage(0);
+  surface.frames.bind_storage(1);
+  surface.render_vertices.bind_storage(4);
+  surface.constants.bind_storage(5);
+  surface.triangles.bind_storage(6);
+  surface.waves.bind_storage(7);
+  surface.phases.bind_storage(10);
+  glBindTextureUnit(1, profile_texture_);
+  glBindVertexArray(vertex_array_);
+}
+
+void RenderPass::draw_shadow_map(const SurfaceBuffers& surface, const View& view) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glClearDepth(1.0);
+  depth_.use();
+  uniform(depth_, "pull", 0.0F);
+  const auto draw = [&](unsigned framebuffer, int size, const glm::dmat4& matrix) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, size, size);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    uniform(depth_, "to_clip", matrix);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * surface.triangle_count));
+  };
+  const double radius = 1.02 * view.bounds_radius;
+  const glm::dmat4 light = parallel_projection(view.bounds_centre, radius, -view.lights[0].direction);
+  shadow_matrix_ = clip_to_unit() * light;
+  shadow_texel_ = 2 * radius / shadow_size;
+  draw(shadow_framebuffer_, shadow_size, light);
+  if (look_.ground) {
+    // From below, looking up: the nearest surface is the lowest one, its depth the height above the floor.
+    const glm::dvec3 centre = view.bounds_centre + (view.floor + radius - glm::dot(view.bounds_centre, view.up)) * view.up;
+    const glm::dmat4 top = parallel_projection(centre, radius, view.up);
+    top_matrix_ = clip_to_unit() * top;
+    draw(top_framebuffer_, top_size, top);
+  }
+}
+
+void RenderPass::draw_ground_map(const View& view) {
+  const GroundFrame ground(view);
+  const auto run = [&](const gpu::Program& program, unsigned result) {
+    uniform(program, "size", ground_size);
+    glBindImageTexture(0, result, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG16F);
+    glDispatchCompute(ground_size / 8, ground_size / 8, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  };
+  ground_cast_.use();
+  glBindTextureUnit(2, shadow_texture_);
+  glBindTextureUnit(4, top_texture_);
+  uniform(ground_cast_, "shadow_matrix", shadow_matrix_);
+  uniform(ground_cast_, "height_matrix", top_matrix_);
+  uniform(ground_cast_, "map_origin", wide(ground.origin, ground.side));
+  uniform(ground_cast_, "map_across", ground.across);
+  uniform(ground_cast_, "map_along", ground.along);
+  const double range = 2 * 1.02 * view.bounds_radius;
+  uniform(ground_cast_, "heights_per_reach", static_cast<float>(range / (contact_reach * view.bounds_radius)));
+  run(ground_cast_, ground_textures_[0]);
+  ground_blur_.use();
+  const double texel = ground.side / ground_size;
+  uniform(ground_blur_, "widths",
+          glm::vec2(std::max(0.7, 0.035 * view.bounds_radius / texel), std::max(0.7, 0.06 * view.bounds_radius / texel)));
+  for (int axis = 0; axis < 2; ++axis) {
+    glBindTextureUnit(3, ground_textures_[static_cast<std::size_t>(axis)]);
+    glUniform2i(ground_blur_.uniform("axis"), axis == 0, axis == 1);
+    run(ground_blur_, ground_textures_[static_cast<std::size_t>(1 - axis)]);
+  }
+}
+
+void RenderPass::draw_backdrop(const View& view) {
+  const GroundFrame ground(view);
+  GLint viewport[4];
+  glGetIntegerv(GL_VIEWPORT, viewport);
+  backdrop_.use();
+  uniform(backdrop_, "from_clip", glm::inverse(view.view_projection));
+  uniform(backdrop_, "background", wide(look_.background, 1));
+  uniform(backdrop_, "picture_size", glm::vec2(viewport[2], viewport[3]));
+  uniform(backdrop_, "floor_plane", wide(view.up, view.floor));
+  uniform(backdrop_, "map_origin", wide(ground.origin, ground.side));
+  uniform(backdrop_, "map_across", ground.across);
+  uniform(backdrop_, "map_along", ground.along);
+  glBindTextureUnit(3, ground_textures_[0]);
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void RenderPass::draw_parts(const gpu::Program& program, bool blended) {
+  for (const auto& part : parts_) {
+    if (part.has_alpha != blended || part.triangle_count == 0) continue;
+    const bool textured = part.texture >= 0;
+    if (textured) textures_[static_cast<std::size_t>(part.texture)].bind(0);
+    uniform(program, "base_colour", part.base_colour);
+    uniform(program, "texture_size",
+            textured ? glm::vec2(textures_[static_cast<std::size_t>(part.texture)].width(),
+                                 textures_[static_cast<std::size_t>(part.texture)].height())
+                     : glm::vec2(0));
+    uniform(program, "alpha_cutoff", part.alpha_cutoff);
+    uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
+    part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle), static_cast<GLsizei>(3 * part.triangle_count));
+  }
+  glDisable(GL_CULL_FACE);
+}
+
+void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target) {
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  bind_surface(surface);
+  if (look_.shadows || look_.ground) draw_shadow_map(surface, view);
+  if (look_.ground) draw_ground_map(view);
+  write_scene(view);
+  target.bind();
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  const glm::vec4 clear = look_.transparent ? glm::vec4(0) : wide(look_.background, 1);
+  glClearColor(clear.r, clear.g, clear.b, clear.a);
+  glDepthMask(GL_TRUE);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (look_.ground && !look_.transparent) draw_backdrop(view);
+  glEnable(GL_DEPTH_TEST);
+  surface_.use();
+  if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
+  draw_parts(surface_, false);
+  if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; })) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
+    glDepthMask(GL_FALSE);
+    draw_parts(surface_, true);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+  }
+  if (look_.wireframe) {
+    lines_.use();
+    uniform(lines_, "to_clip", view.view_projection);
+    uniform(lines_, "pull", 2e-5F);
+    uniform(lines_, "flat_colour", glm::vec4(0.02F, 0.02F, 0.025F, 1));
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * surface.triangle_count));
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  }
+  gpu::check("while rendering");
+}
+
+void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov) {
+  if (aov_.id() == 0) {
+    gpu::Defines defines{{"AOV", "1"}};
+    if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
+    if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
+    aov_ = gpu::Program({"render.vert", "render.frag"}, defines, shader_folder_);
+  }
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  bind_surface(surface);
+  surface.states.bind_storage(11);
+  write_scene(view);
+  target.bind();
+  glClearColor(0, 0, 0, 0);
+  glDepthMask(GL_TRUE);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  aov_.use();
+  uniform(aov_, "aov", static_cast<int>(aov));
+  uniform(aov_, "view_forward", view.forward);
+  draw_parts(aov_, false);
+  draw_parts(aov_, true);
+  gpu::check("while rendering an AOV");
+}
+
+std::vector<float> RenderPass::shadow_map() const {
+  std::vector<float> depths(static_cast<std::size_t>(shadow_size) * shadow_size);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(shadow_texture_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(depths.size() * sizeof(float)),
+                    depths.data());
+  return depths;
+}
+
+}  // namespace plisse::passes

@@ -1,0 +1,99 @@
+// Render: the surface with its wrinkles as shading (docs/passes.md, "Render"; Loviscach 2006, 6), the key light's depth map
+// and the backdrop with its ground.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "gpu/target.h"
+#include "passes/profile.h"
+#include "passes/surface_buffers.h"
+#include "passes/texture.h"
+
+namespace plisse::passes {
+
+struct DirectionalLight {
+  glm::dvec3 direction{0, 1, 0};  // toward the light, unit
+  glm::dvec3 colour{1};           // linear, intensity included
+};
+
+// One view of one moment, in model units.
+struct View {
+  glm::dmat4 view_projection{1};
+  glm::dvec3 eye{0, 0, 1}, forward{0, 0, -1}, up{0, 1, 0};
+  std::array<DirectionalLight, 3> lights;  // key, fill, rim
+  glm::dvec3 ambient{0.3};
+  glm::dvec3 bounds_centre{0};             // of the whole clip: what the key light's map has to cover
+  double bounds_radius = 1;
+  double floor = 0;                        // height of the ground along up
+};
+
+struct Look {
+  bool smooth_blend = true, full_gradient = true;
+  bool plain = false;                      // no waves at all
+  bool phong = false;                      // with plain: textured Phong, the yardstick of the benchmark
+  bool shadows = false, ground = false, wireframe = false;
+  double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;
+  glm::dvec3 background{0.6};              // linear
+  bool transparent = false;
+};
+
+struct DrawPart {
+  std::uint32_t first_triangle = 0, triangle_count = 0;
+  glm::vec4 base_colour{1};                // linear
+  int texture = -1;
+  bool has_alpha = false;                  // blended after the opaque parts
+  float alpha_cutoff = 0;                  // > 0: masked
+  bool two_sided = true;
+};
+
+enum class Aov { height = 0, normal = 1, amplitude = 2, phase = 3, direction = 4, tension = 5, depth = 6 };
+
+class RenderPass {
+ public:
+  RenderPass(const Look& look, const Profile& profile, std::vector<DrawPart> parts,
+             const std::vector<std::vector<TextureLevel>>& textures, const std::string& shader_folder);
+  ~RenderPass();
+  RenderPass(const RenderPass&) = delete;
+  RenderPass& operator=(const RenderPass&) = delete;
+
+  // Clears and draws everything into `target`, not yet resolved.
+  void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
+  // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
+  void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
+
+  // The key light's depth map of the last draw (0…1, rows from bottom to top) and what maps a world point into it.
+  static constexpr int shadow_size = 1024;
+  std::vector<float> shadow_map() const;
+  const glm::dmat4& shadow_matrix() const { return shadow_matrix_; }
+  double shadow_texel() const { return shadow_texel_; }   // its size in the world
+  static constexpr double shadow_offset = 1e-3;
+
+ private:
+  void write_scene(const View& view);
+  void bind_surface(const SurfaceBuffers& surface);
+  void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
+  void draw_ground_map(const View& view);
+  void draw_backdrop(const View& view);
+  void draw_parts(const gpu::Program& program, bool blended);
+  unsigned depth_map(unsigned& framebuffer, int size);
+
+  Look look_;
+  Profile profile_;
+  std::vector<DrawPart> parts_;
+  std::vector<Texture> textures_;
+  std::string shader_folder_;
+  gpu::Program surface_, aov_, depth_, lines_, backdrop_, ground_cast_, ground_blur_;
+  gpu::Buffer scene_;
+  unsigned vertex_array_ = 0, profile_texture_ = 0;
+  unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;
+  std::array<unsigned, 2> ground_textures_{};
+  glm::dmat4 shadow_matrix_{1}, top_matrix_{1};
+  double shadow_texel_ = 0;
+};
+
+}  // namespace plisse::passes

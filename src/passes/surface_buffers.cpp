@@ -1,0 +1,112 @@
+#include "passes/surface_buffers.h"
+
+#include <bit>
+#include <glm/gtc/constants.hpp>
+
+namespace plisse::passes {
+namespace {
+
+glm::vec4 single(const glm::dvec3& x, double w = 0) { return {glm::vec3(x), static_cast<float>(w)}; }
+
+template <typename Function>
+auto mapped(std::size_t count, Function&& function) {
+  std::vector<decltype(function(std::size_t{0}))> result(count);
+  for (std::size_t i = 0; i < count; ++i) result[i] = function(i);
+  return result;
+}
+
+struct GpuInfluences {
+  std::array<std::uint32_t, 8> entries;
+  std::array<float, 8> weights;
+};
+struct GpuConstant {
+  glm::vec4 regression, modifiers;
+};
+struct GpuRenderVertex {
+  glm::vec4 normal;
+  glm::vec2 uv, unused;
+};
+
+// (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone. No neighbours: a
+// stand-in that makes M the identity.
+struct Regression {
+  glm::dmat2 inverse{1.0};
+  double mu = 1;
+};
+Regression regression_of(const glm::dvec2* begin, const glm::dvec2* end) {
+  glm::dmat2 s(0.0);
+  for (const auto* v = begin; v != end; ++v) s += glm::outerProduct(*v, *v);
+  Regression result;
+  const double trace = s[0][0] + s[1][1];
+  if (!(trace > 0)) return result;
+  result.mu = 1e-6 * trace;
+  result.inverse = glm::inverse(s + glm::dmat2(result.mu));
+  return result;
+}
+
+}  // namespace
+
+float initial_phase(std::uint32_t seed, std::uint32_t vertex) {
+  // PCG hash (Jarzynski and Olano 2020, "Hash functions for GPU rendering") of both.
+  const auto pcg = [](std::uint32_t x) {
+    const std::uint32_t state = x * 747796405U + 2891336453U;
+    const std::uint32_t word = ((state >> ((state >> 28U) + 4U)) ^ state) * 277803737U;
+    return (word >> 22U) ^ word;
+  };
+  const double turns = (pcg(vertex + pcg(seed)) + 1.0) / 4294967296.0 - 0.5;  // (−½, ½]
+  return static_cast<float>(turns * glm::two_pi<double>());
+}
+
+SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, const VertexWaves& vertex_waves,
+                               const ModelUnits& units, std::uint32_t seed)
+    : vertex_count(surface.vertex_count()),
+      target_count(surface.target_count),
+      triangle_count(surface.triangle_count()) {
+  const std::size_t count = vertex_count;
+  bind = gpu::Buffer(mapped(count, [&](std::size_t v) { return single(units.rest(surface.bind[v]), 1); }));
+  bind_normals = gpu::Buffer(mapped(count, [&](std::size_t v) { return single(surface.bind_normal[v]); }));
+  influences = gpu::Buffer(mapped(
+      count, [&](std::size_t v) { return GpuInfluences{surface.influences[v].entry, surface.influences[v].weight}; }));
+  target_deltas = gpu::Buffer(mapped(target_count * count, [&](std::size_t i) {
+    return single(glm::dvec3(surface.target_deltas[i]) / units.metres);
+  }));
+  offsets = gpu::Buffer(surface.neighbours.offsets);
+  neighbours = gpu::Buffer(surface.neighbours.items);
+  corner_offsets = gpu::Buffer(surface.corners.offsets);
+  corners = gpu::Buffer(surface.corners.items);
+  tangent_neighbours = gpu::Buffer(rest.tangent_neighbour);
+
+  std::vector<glm::vec2> rows(rest.edge.size());
+  constants = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    const std::size_t begin = surface.neighbours.offsets[v], end = surface.neighbours.offsets[v + 1];
+    const Regression regression = regression_of(rest.edge.data() + begin, rest.edge.data() + end);
+    // Rows times edges have no unit of length left if the edges are in the unit of the posed positions.
+    for (std::size_t i = begin; i < end; ++i) rows[i] = glm::vec2(regression.inverse * rest.edge[i] * units.metres);
+    const glm::dmat2 kept = regression.mu * regression.inverse;
+    return GpuConstant{glm::vec4(kept[0][0], kept[0][1], kept[1][1], vertex_waves.wavelength[v] / units.metres),
+                       glm::vec4(vertex_waves.mask[v], vertex_waves.phase_noise[v], 0, 0)};
+  }));
+  rest_rows = gpu::Buffer(rows);
+
+  render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
+    const RenderVertex& vertex = surface.render_vertices[i];
+    const glm::dvec3 t = rest.tangent[vertex.welded], n = rest.normal[vertex.welded], m = glm::dvec3(vertex.normal);
+    return GpuRenderVertex{glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n),
+                                     std::bit_cast<float>(vertex.welded)),
+                           vertex.uv, glm::vec2(0)};
+  }));
+  triangles = gpu::Buffer(surface.triangles);
+
+  positions = gpu::Buffer(count * sizeof(glm::vec4));
+  frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
+  world_waves = gpu::Buffer(count * sizeof(glm::vec4));
+  states = gpu::Buffer(count * sizeof(glm::vec4));
+  waves = gpu::Buffer(count * sizeof(glm::vec4));
+  phases = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
+  }));
+  phases_next = gpu::Buffer(count * sizeof(glm::vec2));
+  counter = gpu::Buffer(sizeof(std::uint32_t));
+}
+
+}  // namespace plisse::passes

@@ -1,0 +1,44 @@
+// The welded surface on the GPU: what never changes, what a frame computes, and the memory from frame to frame.
+// Layouts are those of shaders/common/surface.glsl; bindings are given there and in each shader.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "mesh/surface.h"
+#include "passes/model_units.h"
+
+namespace plisse::passes {
+
+// What the wrinkles of each welded vertex are like; all of length V.
+struct VertexWaves {
+  std::vector<double> wavelength;   // W, metres of the rest pose, > 0
+  std::vector<double> mask;         // 0…1 times the strength
+  std::vector<double> phase_noise;  // radians, added when the wave is drawn
+};
+
+struct SurfaceBuffers {
+  // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.
+  SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves, const ModelUnits& units,
+                 std::uint32_t seed);
+
+  // Static.
+  std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
+  gpu::Buffer bind, bind_normals, influences, target_deltas;
+  gpu::Buffer offsets, neighbours, rest_rows, constants;
+  gpu::Buffer corner_offsets, corners, tangent_neighbours;
+  gpu::Buffer render_vertices, triangles;
+  // Per frame.
+  gpu::Buffer positions, frames, world_waves;
+  // State over time (docs/contract.md).
+  gpu::Buffer states, waves, phases;
+  // Work space of relax.
+  gpu::Buffer phases_next, counter;
+};
+
+// The uniform start of a phase for (seed, vertex), in (−π, π].
+float initial_phase(std::uint32_t seed, std::uint32_t vertex);
+
+}  // namespace plisse::passes
