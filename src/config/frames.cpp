@@ -132,6 +132,10 @@ std::string frame_path(const std::string& pattern, int frame) {
   return (path.parent_path() / file).string();
 }
 
+bool is_frame_pattern(const std::string& path) {
+  return find_place(fs::path(path).filename().string()).has_value();
+}
+
 void check_frame_pattern(const std::string& pattern) {
   const std::string name = fs::path(pattern).filename().string();
   if (find_place(name) && fs::path(name).has_extension() && !is_png(name)) {

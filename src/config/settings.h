@@ -1,5 +1,5 @@
-// Everything a scene decides, checked and with defaults filled in. Made from a scene file and the command line by
-// config/scene_file.h; used by the pipeline. Lengths are metres, angles degrees, colours sRGB in 0…1.
+// Everything a scene decides, checked and with defaults filled in. Made from a scene file and the command
+// line by config/scene_file.h; used by the pipeline. Lengths are metres, angles degrees, colours sRGB in 0…1.
 #pragma once
 
 #include <array>
@@ -11,59 +11,60 @@
 
 namespace plisse {
 
-enum class RelaxMode { descent, smooth };   // state over time, rule 3
-enum class Blend { linear, smooth };        // weights of a triangle's three waves (docs/passes.md)
-enum class Gradient { paper, full };        // eq. 8 as printed, or with the gradient of the weights
+enum class RelaxMode { descent, smooth };  // state over time, rule 3
+enum class Blend { linear, smooth };       // weights of a triangle's three waves (docs/passes.md)
+enum class Gradient { paper, full };       // eq. 8 as printed, or with the gradient of the weights
 
 struct ModelSettings {
-  std::filesystem::path path;               // resolved against the scene file's folder
-  std::string clip;                         // name or index; empty: first
-  double frames_per_second = 0;             // 0: 24, a sequence's own
-  std::string frames;                       // selection "1-48x2,60"; empty: all
-  bool loop = false;                        // replays one period first
-  double metres_per_unit = 0;               // 0: the file's own
-  std::string up;                           // x | y | z; empty: the file's own
-  std::string rest = "auto";                // auto | bind | frame:N | FILE
+  std::filesystem::path path;    // resolved against the scene file's folder
+  std::string clip;              // name or index; empty: first
+  double frames_per_second = 0;  // 0: 24, a sequence's own
+  std::string frames;            // selection "1-48x2,60"; empty: all
+  bool loop = false;             // replays one period first
+  double metres_per_unit = 0;    // 0: the file's own
+  std::string up;                // x | y | z; empty: the file's own
+  std::string rest = "auto";     // auto | bind | frame:N | FILE
 };
 
 struct WrinkleSettings {
-  double wavelength = 0;                    // metres of the rest pose; 0: from the mesh
-  double strength = 1;                      // multiplies h
-  std::string profile = "sinusoid";         // sinusoid | accordion | pencil | FILE
-  std::vector<std::string> only, exclude;   // names of meshes or materials
-  double dead_zone = 0.005;                 // of 1 − r, ≥ 1e-4
-  double irregularity = 0;                  // 0…1: seeded noise, ±25 % of wavelength and phase at 1
+  double wavelength = 0;                   // metres of the rest pose; 0: from the mesh
+  double strength = 1;                     // multiplies h
+  std::string profile = "sinusoid";        // sinusoid | accordion | pencil | FILE
+  std::vector<std::string> only, exclude;  // names of meshes or materials
+  double dead_zone = 0.005;                // of 1 − r, ≥ 1e-4
+  double irregularity = 0;                 // 0…1: seeded noise, ±25 % of wavelength and phase at 1
   std::uint32_t seed = 1;
 };
 
 struct RelaxSettings {
   RelaxMode mode = RelaxMode::smooth;
-  int rounds = 1;                           // descent rounds per stepped frame
-  double epsilon = 13.2;                    // ε of eq. 6; stable below 19.7 on any mesh
-  int interval = 1;                         // crush and relax every n-th frame
-  int onset_rounds = 8;                     // P of rule 3
-  int smoothing_rounds = 300;               // S of rule 3
+  int rounds = 1;              // descent rounds per stepped frame
+  double epsilon = 13.2;       // ε of eq. 6; stable below 19.7 on any mesh
+  int interval = 1;            // crush and relax every n-th frame
+  int onset_rounds = 8;        // P of rule 3
+  int smoothing_rounds = 300;  // S of rule 3
 };
 
 struct CameraSettings {
-  std::string name;                         // a camera of the model by name or index; empty: the one below
-  double focal_length = 75;                 // millimetres on a 36 mm wide film
-  double azimuth = 35;                      // degrees round the up axis, 0 looks along −z at the front
-  double elevation = 15;                    // degrees above the horizon
-  double distance = 0;                      // metres; 0: fitted over the whole clip
-  double margin = 1.08;                     // of the fit
-  bool explicit_pose = false;               // eye and target given
+  std::string name;            // a camera of the model by name or index; empty: the one below
+  double focal_length = 75;    // millimetres on a 36 mm wide film
+  double azimuth = 35;         // degrees round the up axis, 0 looks along −z at the front
+  double elevation = 15;       // degrees above the horizon
+  double distance = 0;         // metres; 0: fitted over the whole clip
+  double margin = 1.08;        // of the fit
+  bool explicit_pose = false;  // eye and target given
   glm::dvec3 eye{0}, target{0};
 };
 
-// Directions are given relative to the camera (degrees): azimuth to the right of the view, elevation above it.
+// Directions are given relative to the camera (degrees): azimuth to the right of the view, elevation above
+// it.
 struct LightSettings {
   double key_azimuth = -55, key_elevation = 30, key_intensity = 2.4;
-  double fill_azimuth = 50, fill_elevation = 15, fill_ratio = 0.25;   // of the key
+  double fill_azimuth = 50, fill_elevation = 15, fill_ratio = 0.25;  // of the key
   double rim_azimuth = 160, rim_elevation = 35, rim_intensity = 0.8;
   double ambient = 0.35;
   glm::vec3 key_colour{1.0F, 0.95F, 0.88F}, fill_colour{0.85F, 0.92F, 1.0F};
-  bool shadows = false;                     // the key light's shadow on model and ground
+  bool shadows = false;  // the key light's shadow on model and ground
 };
 
 struct ShadingSettings {
@@ -71,23 +72,23 @@ struct ShadingSettings {
   Gradient gradient = Gradient::full;
   double roughness = 0.75;
   double sheen = 0.15;
-  double cavity = 1.2;                      // occlusion in the valleys; 1 is the groove's own, 0 off
-  double parallax = 1;                      // 0 off
+  double cavity = 1.2;  // occlusion in the valleys; 1 is the groove's own, 0 off
+  double parallax = 1;  // 0 off
   bool wireframe = false;
-  glm::vec3 colour{0.62F, 0.60F, 0.57F};    // sRGB, where a material has neither texture nor colour
+  glm::vec3 colour{0.62F, 0.60F, 0.57F};  // sRGB, where a material has neither texture nor colour
 };
 
 struct OutputSettings {
-  std::string path = "frames";              // folder or pattern
+  std::string path = "frames";  // folder or pattern
   int width = 1280, height = 1024;
-  int samples = 4;                          // 1 | 4
+  int samples = 4;  // 1 | 4
   bool transparent = false;
   glm::vec3 background{0.79F, 0.77F, 0.74F};  // sRGB; the backdrop's colour
-  bool ground = false;                      // a floor that runs into the backdrop, with contact shadow
+  bool ground = false;                        // a floor that runs into the backdrop, with contact shadow
 };
 
 struct SceneSettings {
-  std::filesystem::path file;               // the scene file, empty for a bare model
+  std::filesystem::path file;  // the scene file, empty for a bare model
   ModelSettings model;
   WrinkleSettings wrinkles;
   RelaxSettings relax;

@@ -1,0 +1,82 @@
+#include "base/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace plisse {
+namespace {
+
+// fps and time left; the latter in h:mm:ss, hours only where there are any.
+std::string rates(int done, int total, double seconds) {
+  if (done < 1 || !(seconds > 0)) return "";
+  const auto left = static_cast<long long>(std::ceil(seconds / done * std::max(total - done, 0)));
+  const std::string clock = left < 3600
+                                ? fmt::format("{}:{:02}", left / 60, left % 60)
+                                : fmt::format("{}:{:02}:{:02}", left / 3600, left / 60 % 60, left % 60);
+  return fmt::format("  {:.1f} fps  eta {}", done / seconds, clock);
+}
+
+int terminal_columns() {
+  winsize window{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
+}
+
+// A closed stderr is no reason to stop a run: nobody asks whether this came through.
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+std::string progress_bar(int done, int total, double seconds, int columns) {
+  const std::string numbers = fmt::format(" {}/{}{}", done, total, rates(done, total, seconds));
+  const int cells = std::clamp(columns - static_cast<int>(numbers.size()) - 2, 0, 40);
+  std::string text;
+  if (cells >= 5) {
+    const auto full =
+        static_cast<int>(static_cast<long long>(cells) * std::clamp(done, 0, total) / std::max(total, 1));
+    text = fmt::format("[{}{}{}]", std::string(static_cast<std::size_t>(full), '='), full < cells ? ">" : "",
+                       std::string(static_cast<std::size_t>(std::max(cells - full - 1, 0)), ' '));
+  }
+  return (text + numbers).substr(0, static_cast<std::size_t>(std::max(columns, 0)));
+}
+
+std::string progress_line(int done, int total, double seconds, std::string_view what) {
+  return fmt::format("{}/{}  {}{}", done, total, what, rates(done, total, seconds));
+}
+
+Progress::Style Progress::style_for_stderr(bool quiet) {
+  if (quiet) return Style::none;
+  return isatty(STDERR_FILENO) == 1 ? Style::bar : Style::lines;
+}
+
+Progress::Progress(Style style) : style_(style), start_(Clock::now()) {}
+
+Progress::~Progress() {
+  if (bar_on_screen_) std::fputc('\n', stderr);
+}
+
+void Progress::update(int done, int total, std::string_view what) {
+  if (style_ == Style::none) return;
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  if (style_ == Style::lines) {
+    say(fmt::format("{}\n", progress_line(done, total, seconds, what)));
+    return;
+  }
+  using namespace std::chrono_literals;
+  if (bar_on_screen_ && done < total && now - drawn_ < 50ms) return;  // 20 a second are enough for an eye
+  // One column stays free: some terminals wrap when the last one is written. "\x1b[K" clears what a longer
+  // bar left.
+  say(fmt::format("\r{}\x1b[K", progress_bar(done, total, seconds, terminal_columns() - 1)));
+  drawn_ = now;
+  bar_on_screen_ = true;
+}
+
+}  // namespace plisse

@@ -1,0 +1,39 @@
+// How far a run is, on stderr: a bar on a terminal, a line a step elsewhere, nothing when quiet.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace plisse {
+
+// "[=====>    ] 12/72  31.2 fps  eta 0:02", cut to `columns`. `seconds` went into the steps done so far;
+// before the first there is neither fps nor eta.
+std::string progress_bar(int done, int total, double seconds, int columns);
+
+// "12/72  frames/frame_0012.png  31.2 fps  eta 0:02".
+std::string progress_line(int done, int total, double seconds, std::string_view what);
+
+class Progress {
+ public:
+  enum class Style { none, lines, bar };
+  // A bar where stderr is a terminal, lines elsewhere.
+  static Style style_for_stderr(bool quiet);
+
+  explicit Progress(Style style);
+  // Ends the bar's line.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // After a step; `what` names it. From one thread.
+  void update(int done, int total, std::string_view what);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Style style_;
+  Clock::time_point start_, drawn_;
+  bool bar_on_screen_ = false;
+};
+
+}  // namespace plisse

@@ -1,0 +1,107 @@
+// The kinds of values that keys of a scene have: how each is read, checked, shown and described. Only config/
+// sees this; toml++ nodes carry values from the command line as well.
+#pragma once
+
+#include <toml++/toml.h>
+#include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "config/settings.h"
+
+namespace plisse::config {
+
+// Why a value will not do; what is allowed instead is the key's to say.
+struct Problem {
+  std::string what;
+  std::string hint;  // " (did you mean 'smooth'?)" or nothing
+};
+
+struct Kind {
+  std::string type;     // in a word or two, with the unit: "length", "number, degrees"
+  std::string allowed;  // the range or the words
+  // Throws Problem. Relative paths start from the folder; an empty one stands for the working directory.
+  std::function<void(SceneSettings&, const toml::node&, const std::filesystem::path& folder)> set;
+  std::function<std::string(const SceneSettings&)> show;  // the value as TOML
+  bool textual = false;                                   // 007 on the command line is a name here, not seven
+};
+
+// Reaches one member of the settings.
+template <typename Value>
+using Member = std::function<Value&(SceneSettings&)>;
+
+template <typename Group, typename Value>
+Member<Value> member(Group SceneSettings::*group, Value Group::*value) {
+  return [=](SceneSettings& settings) -> Value& { return settings.*group.*value; };
+}
+
+struct Range {
+  double low = 0, high = 1;
+  std::string_view zero =
+      {};  // what 0 stands for where it lies outside low … high and is allowed all the same
+};
+
+// A text as a TOML string with its quotes.
+std::string quoted(const std::string& text);
+
+Kind number(Member<double> value, Range range, std::string_view unit = {});
+Kind length(Member<double> value, Range range);  // metres, or with a unit
+Kind whole(Member<int> value, int low, int high);
+Kind whole(Member<std::uint32_t> value);
+Kind one_of(Member<int> value, std::vector<int> choices);
+Kind truth(Member<bool> value);
+
+Kind name_or_index(Member<std::string> value, std::string_view empty);  // empty: what "" stands for
+Kind names(Member<std::vector<std::string>> value);
+Kind word(Member<std::string> value, std::vector<std::string> words, std::string_view empty);
+Kind frame_selection(Member<std::string> value);
+Kind size(Member<int> width, Member<int> height);
+Kind colour(Member<glm::vec3> value);
+Kind background(Member<glm::vec3> value, Member<bool> transparent);
+// Three lengths; an empty array stands for none.
+Kind point(Member<glm::dvec3> value);
+
+Kind model_path(Member<std::filesystem::path> value);
+Kind rest_pose(Member<std::string> value);
+Kind word_or_file(Member<std::string> value, std::vector<std::string> words);
+Kind frame_pattern(Member<std::string> value);
+
+// Words that stand for the values of an enumeration.
+template <typename Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+std::string either(const std::vector<std::string>& words);  // "a, b or c"
+Problem unknown_word(const std::string& word, const std::vector<std::string>& words);
+std::string text_of(const toml::node& node);  // throws Problem where it is no text
+
+template <typename Value>
+Kind enumeration(Member<Value> value, Words<Value> words) {
+  std::vector<std::string> names;
+  for (const auto& [name, meaning] : words) names.push_back(name);
+  Kind kind{"word", either(names), {}, {}, true};
+  kind.set = [=](SceneSettings& settings, const toml::node& node, const std::filesystem::path&) {
+    const std::string given = text_of(node);
+    for (const auto& [name, meaning] : words) {
+      if (name == given) {
+        value(settings) = meaning;
+        return;
+      }
+    }
+    throw unknown_word(given, names);
+  };
+  kind.show = [=](const SceneSettings& settings) {
+    auto copy = settings;
+    for (const auto& [name, meaning] : words) {
+      if (meaning == value(copy)) return quoted(name);
+    }
+    return quoted("");
+  };
+  return kind;
+}
+
+}  // namespace plisse::config
