@@ -1,0 +1,177 @@
+// The assimp reader: opens the file, settles units and up axis, and walks nodes and cameras.
+#include "io/import_assimp.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <glm/gtc/matrix_transform.hpp>
+#include <regex>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "io/import_assimp_parts.h"
+#include "io/import_place.h"
+
+namespace plisse::io {
+namespace {
+
+FileKind kind_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".glb" || extension == ".gltf") return FileKind::gltf;
+  if (extension == ".fbx") return FileKind::fbx;
+  if (extension == ".dae") return FileKind::collada;
+  if (extension == ".x") return FileKind::x;
+  return FileKind::other;
+}
+
+// Unit and up axis as a file states them.
+struct Space {
+  double metres_per_unit = 1;
+  std::string up = "y";
+};
+
+// assimp 5.2.5 leaves FBX in the file's own space and hands both over as metadata; UnitScaleFactor is centimetres.
+Space space_of_fbx(const aiScene& scene) {
+  Space space;
+  int axis = 1;
+  if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", axis) && axis >= 0 && axis <= 2)
+    space.up = std::string(1, static_cast<char>('x' + axis));
+  double centimetres = 1;
+  float single = 1;
+  if (scene.mMetaData != nullptr && !scene.mMetaData->Get("UnitScaleFactor", centimetres) &&
+      scene.mMetaData->Get("UnitScaleFactor", single))
+    centimetres = static_cast<double>(single);
+  if (!(centimetres > 0) || !std::isfinite(centimetres)) centimetres = 1;
+  space.metres_per_unit = centimetres / 100;
+  return space;
+}
+
+// assimp folds COLLADA's unit into the root node and says nothing of it, so the <asset> head is read here.
+Space space_of_collada(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string head(std::size_t{1} << 16, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  Space space;
+  std::smatch match;
+  static const std::regex up(R"(<up_axis>\s*([XYZ])_UP\s*</up_axis>)");
+  static const std::regex unit(R"re(<unit\b[^>]*\bmeter\s*=\s*["']\s*([0-9.eE+-]+))re");
+  if (std::regex_search(head, match, up)) space.up = std::string(1, static_cast<char>(std::tolower(match.str(1)[0])));
+  if (std::regex_search(head, match, unit)) {
+    const double metres = std::atof(match.str(1).c_str());
+    if (metres > 0 && std::isfinite(metres)) space.metres_per_unit = metres;
+  }
+  return space;
+}
+
+int add_node(const aiNode& from, int parent, AssimpScene& scene, Model& model) {
+  const int id = static_cast<int>(model.nodes.size());
+  Node& node = model.nodes.emplace_back();
+  node.name = from.mName.C_Str();
+  node.parent = parent;
+  node.local = mat4(from.mTransformation);
+  if (!scene.node_ids.emplace(node.name, id).second && !node.name.empty())
+    log::warn_once("node names " + scene.path.string(),
+                   fmt::format("{}: several nodes are called '{}'; animation and bones go to the first of them",
+                               scene.path.string(), node.name));
+  for (unsigned c = 0; c < from.mNumChildren; ++c) add_node(*from.mChildren[c], id, scene, model);
+  return id;
+}
+
+// The same walk again, now that it is known which meshes have triangles.
+void hang_meshes(const aiNode& from, int& id, const AssimpScene& scene, Model& model) {
+  Node& node = model.nodes[static_cast<std::size_t>(id++)];
+  for (unsigned m = 0; m < from.mNumMeshes; ++m) {
+    const int mesh = from.mMeshes[m] < scene.mesh_ids.size() ? scene.mesh_ids[from.mMeshes[m]] : -1;
+    if (mesh < 0) continue;
+    node.meshes.push_back(mesh);
+    const std::size_t targets = model.meshes[static_cast<std::size_t>(mesh)].targets.size();
+    if (targets <= node.morph_weights.size()) continue;
+    node.morph_weights.resize(targets, 0);
+    const aiMesh& source = *scene.scene.mMeshes[from.mMeshes[m]];
+    for (std::size_t t = 0; t < targets; ++t) {
+      const double weight = static_cast<double>(source.mAnimMeshes[t]->mWeight);
+      // For FBX 5.2.5 writes 1 wherever a channel has one shape, whatever the file says; 0 is what files mean.
+      node.morph_weights[t] = scene.kind == FileKind::fbx && weight == 1 ? 0 : weight;
+    }
+  }
+  for (unsigned c = 0; c < from.mNumChildren; ++c) hang_meshes(*from.mChildren[c], id, scene, model);
+}
+
+// A camera looks along −z of its node with y up; where the file's looks elsewhere a node in between turns it.
+void read_cameras(const AssimpScene& from, Model& model) {
+  for (unsigned c = 0; c < from.scene.mNumCameras; ++c) {
+    const aiCamera& source = *from.scene.mCameras[c];
+    const auto node = from.node_ids.find(source.mName.C_Str());
+    if (node == from.node_ids.end()) continue;
+    const glm::dvec3 look = vec3(source.mLookAt);
+    const glm::dvec3 side = glm::cross(look, vec3(source.mUp));
+    if (!(glm::length(look) > 0) || !(glm::length(side) > 1e-6 * glm::length(look))) continue;
+    const glm::dvec3 x = glm::normalize(side);
+    const glm::dvec3 z = -glm::normalize(look);
+    const glm::dvec3 y = glm::cross(z, x);
+    Node& turned = model.nodes.emplace_back();
+    turned.name = std::string(source.mName.C_Str()) + " (view)";
+    turned.parent = node->second;
+    turned.local = glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(vec3(source.mPosition), 1)};
+
+    Camera& camera = model.cameras.emplace_back();
+    camera.name = source.mName.C_Str();
+    camera.node = static_cast<int>(model.nodes.size()) - 1;
+    // mHorizontalFOV is the whole angle in every reader of 5.2.5, whatever its comment says.
+    const double aspect = source.mAspect > 0 ? static_cast<double>(source.mAspect) : 1;
+    const double angle = 2 * std::atan(std::tan(static_cast<double>(source.mHorizontalFOV) / 2) / aspect);
+    if (angle > 0 && angle < 3.1) camera.vertical_field_of_view = angle;
+  }
+}
+
+}  // namespace
+
+Model import_assimp(const std::filesystem::path& path, const ImportOptions& options) {
+  Assimp::Importer importer;
+  // Files with a skeleton and no mesh get a dummy body otherwise.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    const std::string reason = importer.GetErrorString();
+    throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read as a model: {}", path.string(),
+                                                 reason.empty() ? "it holds no scene" : reason));
+  }
+
+  Model model;
+  model.path = path;
+  AssimpScene from{*scene, kind_of(path), path, {}, {}, {}};
+  const Space space = from.kind == FileKind::fbx       ? space_of_fbx(*scene)
+                      : from.kind == FileKind::collada ? space_of_collada(path)
+                                                       : Space{};
+  model.metres_per_unit = options.metres_per_unit.value_or(space.metres_per_unit);
+  model.up = options.up.empty() ? space.up : options.up;
+  glm::dmat4 world = file_to_world(model.up, model.metres_per_unit);
+  // COLLADA's root already carries the file's own unit.
+  if (from.kind == FileKind::collada) world = glm::scale(world, glm::dvec3{1 / space.metres_per_unit});
+
+  int root = -1;
+  if (world != glm::dmat4{1}) {
+    model.nodes.emplace_back().name = "(world)";
+    model.nodes.back().local = world;
+    root = 0;
+  }
+  int first = add_node(*scene->mRootNode, root, from, model);
+  read_materials(from, model);
+  read_meshes(from, model);
+  hang_meshes(*scene->mRootNode, first, from, model);
+  read_cameras(from, model);
+  read_clips(from, model);
+  return model;
+}
+
+}  // namespace plisse::io

@@ -1,0 +1,154 @@
+// The assimp reader's meshes: vertices, bones and morph targets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.h"
+#include "io/import_assimp_parts.h"
+
+namespace plisse::io {
+namespace {
+
+struct BoneWeight {
+  std::uint32_t bone;
+  double weight;
+};
+
+// The strongest eight, renormalised (Model: Influences). The vertex is the mesh's `unbound` bone's where it has none.
+Influences strongest(std::vector<BoneWeight>& weights, std::uint32_t unbound) {
+  std::stable_sort(weights.begin(), weights.end(),
+                   [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
+  const std::size_t count = std::min<std::size_t>(weights.size(), max_influences);
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += weights[i].weight;
+  Influences result;
+  if (count == 0) {
+    result.bone[0] = unbound;
+    result.weight[0] = 1;
+    return result;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    result.bone[i] = weights[i].bone;
+    result.weight[i] = static_cast<float>(weights[i].weight / sum);
+  }
+  return result;
+}
+
+// The node a mesh hangs under, for vertices that no bone moves.
+const aiNode* node_with(const aiNode& node, unsigned mesh) {
+  for (unsigned m = 0; m < node.mNumMeshes; ++m)
+    if (node.mMeshes[m] == mesh) return &node;
+  for (unsigned c = 0; c < node.mNumChildren; ++c)
+    if (const aiNode* found = node_with(*node.mChildren[c], mesh)) return found;
+  return nullptr;
+}
+
+void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
+  const aiMesh& source = *from.scene.mMeshes[mesh_id];
+  std::vector<std::vector<BoneWeight>> weights(mesh.positions.size());
+  for (unsigned b = 0; b < source.mNumBones; ++b) {
+    const aiBone& bone = *source.mBones[b];
+    const auto node = from.node_ids.find(bone.mName.C_Str());
+    if (node == from.node_ids.end()) {
+      log::warn_once("bone nodes " + from.path.string(),
+                     fmt::format("{}: bone '{}' of mesh '{}' has no node; its influence is left out",
+                                 from.path.string(), bone.mName.C_Str(), mesh.name));
+      continue;
+    }
+    for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+      const aiVertexWeight& weight = bone.mWeights[w];
+      if (weight.mVertexId < weights.size() && weight.mWeight > 0 && std::isfinite(weight.mWeight))
+        weights[weight.mVertexId].push_back(
+            {static_cast<std::uint32_t>(mesh.bones.size()), static_cast<double>(weight.mWeight)});
+    }
+    mesh.bones.push_back({node->second, mat4(bone.mOffsetMatrix)});
+  }
+  if (mesh.bones.empty()) return;
+
+  std::size_t most = 0, cut = 0, unbound = 0;
+  for (const auto& of_vertex : weights) {
+    most = std::max(most, of_vertex.size());
+    cut += of_vertex.size() > max_influences ? 1 : 0;
+    unbound += of_vertex.empty() ? 1 : 0;
+  }
+  mesh.file_max_influences = static_cast<int>(most);
+  if (cut > 0)
+    log::warn_once("influences " + from.path.string() + mesh.name,
+                   fmt::format("{}: mesh '{}' has up to {} bones on a vertex; the strongest {} are kept on {} vertices",
+                               from.path.string(), mesh.name, most, max_influences, cut));
+  const auto own_bone = static_cast<std::uint32_t>(mesh.bones.size());
+  if (unbound > 0) {
+    const aiNode* node = node_with(*from.scene.mRootNode, mesh_id);
+    const auto id = node == nullptr ? from.node_ids.end() : from.node_ids.find(node->mName.C_Str());
+    mesh.bones.push_back({id == from.node_ids.end() ? 0 : id->second, glm::dmat4{1}});
+    log::warn_once("unbound " + from.path.string() + mesh.name,
+                   fmt::format("{}: {} vertices of mesh '{}' have no bone; they move with its node",
+                               from.path.string(), unbound, mesh.name));
+  }
+  mesh.influences.reserve(weights.size());
+  for (auto& of_vertex : weights) mesh.influences.push_back(strongest(of_vertex, own_bone));
+}
+
+void read_targets(const aiMesh& source, Mesh& mesh) {
+  for (unsigned t = 0; t < source.mNumAnimMeshes; ++t) {
+    const aiAnimMesh& shape = *source.mAnimMeshes[t];
+    MorphTarget& target = mesh.targets.emplace_back();
+    target.name = shape.mName.C_Str();
+    target.position_deltas.assign(mesh.positions.size(), glm::vec3{0});
+    if (shape.mVertices == nullptr) continue;  // a target of normals alone moves nothing
+    const std::size_t count = std::min<std::size_t>(shape.mNumVertices, mesh.positions.size());
+    for (std::size_t v = 0; v < count; ++v)
+      target.position_deltas[v] = glm::vec3(vec3(shape.mVertices[v]) - mesh.positions[v]);
+  }
+}
+
+Mesh read_mesh(const AssimpScene& from, unsigned mesh_id) {
+  const aiMesh& source = *from.scene.mMeshes[mesh_id];
+  Mesh mesh;
+  mesh.name = source.mName.C_Str();
+  // Lines and points are left over from Triangulate with fewer than three indices.
+  for (unsigned f = 0; f < source.mNumFaces; ++f)
+    if (source.mFaces[f].mNumIndices == 3)
+      mesh.triangles.insert(mesh.triangles.end(), source.mFaces[f].mIndices, source.mFaces[f].mIndices + 3);
+  if (mesh.triangles.empty() || source.mVertices == nullptr) {
+    mesh.triangles.clear();
+    return mesh;
+  }
+  mesh.material = source.mMaterialIndex < from.scene.mNumMaterials ? static_cast<int>(source.mMaterialIndex) : -1;
+  const unsigned count = source.mNumVertices;
+  mesh.positions.reserve(count);
+  for (unsigned v = 0; v < count; ++v) mesh.positions.push_back(vec3(source.mVertices[v]));
+  if (source.HasNormals()) {
+    mesh.normals.reserve(count);
+    for (unsigned v = 0; v < count; ++v) {
+      const glm::dvec3 normal = vec3(source.mNormals[v]);
+      const double length = glm::length(normal);
+      mesh.normals.emplace_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3{0});
+    }
+  }
+  unsigned channel = mesh.material >= 0 ? from.uv_channels[source.mMaterialIndex] : 0;
+  if (channel >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(channel)) channel = 0;
+  if (source.HasTextureCoords(channel)) {
+    mesh.uvs.reserve(count);
+    for (unsigned v = 0; v < count; ++v)
+      mesh.uvs.emplace_back(source.mTextureCoords[channel][v].x, source.mTextureCoords[channel][v].y);
+  }
+  read_bones(from, mesh_id, mesh);
+  read_targets(source, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+void read_meshes(AssimpScene& from, Model& model) {
+  from.mesh_ids.assign(from.scene.mNumMeshes, -1);
+  for (unsigned m = 0; m < from.scene.mNumMeshes; ++m) {
+    Mesh mesh = read_mesh(from, m);
+    if (mesh.triangles.empty()) continue;
+    from.mesh_ids[m] = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(mesh));
+  }
+}
+
+}  // namespace plisse::io

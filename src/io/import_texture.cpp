@@ -1,0 +1,106 @@
+// Decoding and finding textures (see import_texture.h). stb_image is compiled here, with internal linkage.
+#include "io/import_texture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <memory>
+
+#include "base/log.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_FAILURE_USERMSG
+#define STBI_MAX_DIMENSIONS 16384  // OpenGL 4.5 guarantees this size of a texture
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace plisse::io {
+namespace {
+
+std::string percent_decoded(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto hex = [&](std::size_t at) { return std::isxdigit(static_cast<unsigned char>(text[at])) != 0; };
+    if (text[i] == '%' && i + 2 < text.size() && hex(i + 1) && hex(i + 2)) {
+      result += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      result += text[i] == '\\' ? '/' : text[i];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string& why) {
+  if (bytes.empty() || bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    why = bytes.empty() ? "it is empty" : "it is larger than 2 GB";
+    return std::nullopt;
+  }
+  Image image;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels{
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &image.width,
+                            &image.height, &channels, 4),
+      stbi_image_free};
+  if (!pixels) {
+    why = stbi_failure_reason();
+    return std::nullopt;
+  }
+  image.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * static_cast<std::size_t>(image.width) *
+                                                     static_cast<std::size_t>(image.height));
+  return image;
+}
+
+std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::string decoded = percent_decoded(name);
+  if (decoded.starts_with("file://")) decoded.erase(0, 7);
+  const fs::path folder = model.parent_path();
+  const fs::path bare = fs::path(decoded).filename();
+  const std::array<fs::path, 5> candidates{folder / name, folder / decoded, folder / bare, folder / "textures" / bare,
+                                           folder / "Textures" / bare};
+  for (const fs::path& candidate : candidates) {
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  }
+  return {};
+}
+
+int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Model& model) {
+  for (std::size_t i = 0; i < model.textures.size(); ++i)
+    if (model.textures[i].name == name) return static_cast<int>(i);
+  std::string why;
+  std::optional<Image> image = decode_image(bytes, why);
+  if (!image) {
+    log::warn_once("texture " + name,
+                   fmt::format("texture '{}' cannot be decoded ({}); the base colour stands in for it", name, why));
+    return -1;
+  }
+  model.textures.push_back({name, std::move(*image)});
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Model& model) {
+  const std::filesystem::path path = find_texture(model_file, name);
+  if (path.empty()) {
+    log::warn_once("texture " + name, fmt::format("{}: texture '{}' not found beside it; the base colour stands in for it",
+                                                  model_file.string(), name));
+    return -1;
+  }
+  std::ifstream stream(path, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return load_texture_bytes(std::as_bytes(std::span(bytes)), path.string(), model);
+}
+
+}  // namespace plisse::io

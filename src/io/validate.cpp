@@ -1,0 +1,200 @@
+// What every Model must keep, whichever reader made it. Values of animation keys may be non-finite: a pose made of
+// them is held back later (contract.md, "Exit codes"); everything else here decides memory and indices and must be
+// sound.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "io/import.h"
+
+namespace plisse::io {
+namespace {
+
+bool finite(double value) { return std::isfinite(value); }
+bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dmat4& m) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(m[column][row])) return false;
+  return true;
+}
+
+class Check {
+ public:
+  explicit Check(const Model& model) : model_(model) {}
+
+  void run() const {
+    std::size_t triangles = 0;
+    for (std::size_t m = 0; m < model_.materials.size(); ++m) material(m);
+    for (const Texture& item : model_.textures) texture(item);
+    for (const Mesh& item : model_.meshes) {
+      mesh(item);
+      triangles += item.triangles.size() / 3;
+    }
+    if (triangles == 0) fail("holds no triangles: there is nothing to wrinkle in it");
+    bool shown = false;
+    for (std::size_t n = 0; n < model_.nodes.size(); ++n) shown |= node(n);
+    if (!shown) fail("no node places any of its meshes: there is nothing to show");
+    for (const Clip& item : model_.clips) clip(item);
+    for (const Camera& item : model_.cameras)
+      if (!is_node(item.node)) fail(fmt::format("camera '{}' stands at node {}, of {}", item.name, item.node,
+                                                model_.nodes.size()));
+    cache();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ExitCode::bad_input, fmt::format("{}: {}", model_.path.string(), what));
+  }
+
+  bool is_node(int id) const { return id >= 0 && static_cast<std::size_t>(id) < model_.nodes.size(); }
+
+  template <typename Items>
+  void all_finite(const Items& items, const std::string& what) const {
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (!finite(items[i])) fail(fmt::format("{} {} is not finite", what, i));
+  }
+
+  template <typename Items>
+  void count(const Items& items, std::size_t expected, const std::string& what) const {
+    if (!items.empty() && items.size() != expected)
+      fail(fmt::format("{}: {} of them for {} vertices", what, items.size(), expected));
+  }
+
+  void material(std::size_t id) const {
+    const Material& item = model_.materials[id];
+    if (item.base_colour_texture >= static_cast<int>(model_.textures.size()))
+      fail(fmt::format("material '{}' names texture {}, of {}", item.name, item.base_colour_texture,
+                       model_.textures.size()));
+    for (int c = 0; c < 4; ++c)
+      if (!finite(static_cast<double>(item.base_colour[c])))
+        fail(fmt::format("the base colour of material '{}' is not finite", item.name));
+  }
+
+  void texture(const Texture& item) const {
+    const Image& image = item.image;
+    if (image.width <= 0 || image.height <= 0 ||
+        image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+      fail(fmt::format("texture '{}' of {}×{} has {} bytes", item.name, image.width, image.height, image.rgba.size()));
+  }
+
+  void mesh(const Mesh& item) const {
+    const std::string name = fmt::format("mesh '{}': ", item.name);
+    const std::size_t vertices = item.positions.size();
+    if (item.triangles.size() % 3 != 0)
+      fail(fmt::format("{}{} triangle indices are not a multiple of three", name, item.triangles.size()));
+    for (std::size_t i = 0; i < item.triangles.size(); ++i)
+      if (item.triangles[i] >= vertices)
+        fail(fmt::format("{}triangle {} names vertex {}, of {}", name, i / 3, item.triangles[i], vertices));
+    all_finite(item.positions, name + "position");
+    all_finite(item.normals, name + "normal");
+    all_finite(item.uvs, name + "uv");
+    count(item.normals, vertices, name + "normals");
+    count(item.uvs, vertices, name + "uvs");
+    if (item.material >= static_cast<int>(model_.materials.size()))
+      fail(fmt::format("{}material {}, of {}", name, item.material, model_.materials.size()));
+    for (const MorphTarget& target : item.targets) {
+      if (target.position_deltas.size() != vertices)
+        fail(fmt::format("{}morph target '{}' has {} deltas for {} vertices", name, target.name,
+                         target.position_deltas.size(), vertices));
+      all_finite(target.position_deltas, name + "morph target '" + target.name + "': delta");
+    }
+    bones(item, name);
+  }
+
+  void bones(const Mesh& item, const std::string& name) const {
+    if (item.influences.size() != (item.bones.empty() ? 0 : item.positions.size()))
+      fail(fmt::format("{}{} vertices, {} with bone weights", name, item.positions.size(), item.influences.size()));
+    for (std::size_t b = 0; b < item.bones.size(); ++b) {
+      if (!is_node(item.bones[b].node))
+        fail(fmt::format("{}bone {} moves with node {}, of {}", name, b, item.bones[b].node, model_.nodes.size()));
+      if (!finite(item.bones[b].offset)) fail(fmt::format("{}the bind matrix of bone {} is not finite", name, b));
+    }
+    for (std::size_t v = 0; v < item.influences.size(); ++v) {
+      double sum = 0;
+      for (std::size_t i = 0; i < max_influences; ++i) {
+        const float weight = item.influences[v].weight[i];
+        if (!(weight >= 0) || !std::isfinite(weight)) fail(fmt::format("{}vertex {} has a bone weight of {}", name, v, weight));
+        if (weight > 0 && item.influences[v].bone[i] >= item.bones.size())
+          fail(fmt::format("{}vertex {} names bone {}, of {}", name, v, item.influences[v].bone[i], item.bones.size()));
+        sum += static_cast<double>(weight);
+      }
+      // Eight rounded weights: 8 · 2^-24, and a decade of room.
+      if (std::abs(sum - 1) > 5e-6) fail(fmt::format("{}the bone weights of vertex {} sum to {}, not 1", name, v, sum));
+    }
+  }
+
+  // Whether the node places a mesh.
+  bool node(std::size_t id) const {
+    const Node& item = model_.nodes[id];
+    if (item.parent < -1 || item.parent >= static_cast<int>(id))
+      fail(fmt::format("node {} '{}' has the parent {}: parents must come before their children", id, item.name,
+                       item.parent));
+    if (!finite(item.local)) fail(fmt::format("the matrix of node '{}' is not finite", item.name));
+    all_finite(item.morph_weights, fmt::format("node '{}': morph weight", item.name));
+    std::size_t targets = 0;
+    for (const int mesh_id : item.meshes) {
+      if (mesh_id < 0 || static_cast<std::size_t>(mesh_id) >= model_.meshes.size())
+        fail(fmt::format("node '{}' shows mesh {}, of {}", item.name, mesh_id, model_.meshes.size()));
+      targets = std::max(targets, model_.meshes[static_cast<std::size_t>(mesh_id)].targets.size());
+    }
+    if (item.morph_weights.size() != targets)
+      fail(fmt::format("node '{}' has {} morph weights for {} targets", item.name, item.morph_weights.size(), targets));
+    return !item.meshes.empty();
+  }
+
+  template <typename Value>
+  void keys(const Keys<Value>& track, const std::string& name) const {
+    if (track.values.size() != track.times.size())
+      fail(fmt::format("{}{} key times for {} values", name, track.times.size(), track.values.size()));
+    if (track.interpolation == Interpolation::cubic_spline &&
+        (track.in_tangents.size() != track.times.size() || track.out_tangents.size() != track.times.size()))
+      fail(fmt::format("{}{} keys with {} and {} tangents", name, track.times.size(), track.in_tangents.size(),
+                       track.out_tangents.size()));
+    all_finite(track.times, name + "key time");
+    for (std::size_t k = 1; k < track.times.size(); ++k)
+      if (!(track.times[k] > track.times[k - 1])) fail(fmt::format("{}key {} does not come after the one before", name, k));
+  }
+
+  void clip(const Clip& item) const {
+    if (!(item.duration >= 0) || !std::isfinite(item.duration))
+      fail(fmt::format("clip '{}' lasts {} s", item.name, item.duration));
+    for (const Channel& channel : item.channels) {
+      const std::string name = fmt::format("clip '{}', node {}: ", item.name, channel.node);
+      if (!is_node(channel.node)) fail(name + "no such node");
+      keys(channel.translation, name + "translation: ");
+      keys(channel.rotation, name + "rotation: ");
+      keys(channel.scale, name + "scale: ");
+      keys(channel.morph_weights, name + "morph weights: ");
+      const std::size_t targets = model_.nodes[static_cast<std::size_t>(channel.node)].morph_weights.size();
+      for (const auto* list :
+           {&channel.morph_weights.values, &channel.morph_weights.in_tangents, &channel.morph_weights.out_tangents})
+        for (const std::vector<double>& weights : *list)
+          if (weights.size() != targets)
+            fail(fmt::format("{}{} morph weights for {} targets", name, weights.size(), targets));
+    }
+  }
+
+  void cache() const {
+    if (model_.cache.frames.empty()) return;
+    std::size_t vertices = 0;
+    for (const Mesh& item : model_.meshes) vertices += item.positions.size();
+    if (!(model_.cache.frames_per_second > 0) || !finite(model_.cache.frames_per_second))
+      fail(fmt::format("a cache of {} frames a second", model_.cache.frames_per_second));
+    for (std::size_t f = 0; f < model_.cache.frames.size(); ++f)
+      if (model_.cache.frames[f].size() != vertices)
+        fail(fmt::format("frame {} of the cache has {} positions for {} vertices", f + 1, model_.cache.frames[f].size(),
+                         vertices));
+  }
+
+  const Model& model_;
+};
+
+}  // namespace
+
+void validate(const Model& model) { Check(model).run(); }
+
+}  // namespace plisse::io
