@@ -164,11 +164,10 @@ def surface():
     first, last = len(shoulder), len(shoulder) + len(body) - 1
     whole = (1 / TILE, 1 / TILE)
     band = (1 / 0.02, 0.5 / 0.022)
-    # Seen from outside with s to the right, phi runs downward: so rows run the other way round.
     parts = [('shoulder', points[:first + 1], band, False), ('sleeve', points[first:last + 1], whole, True),
              ('cuff', points[last:], whole, True)]
     for name, part, scale, askew in parts:
-        cloth.grid(name, [list(reversed(corners(row, scale, askew))) for row in part])
+        cloth.grid(name, [corners(row, scale, askew) for row in part])
     return cloth
 
 
