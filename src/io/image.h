@@ -1,4 +1,4 @@
-// Pictures from files: textures of models, profiles, baselines of tests. stb_image does the decoding.
+// Pictures from files, where an unreadable one is an error (a model's texture is not: see import_texture.h).
 #pragma once
 
 #include <cstdint>

@@ -66,10 +66,10 @@ TEST(ReadImage, BmpIsBottomUpAndBlueFirst) {
 TEST(ReadImage, RefusesWithNameAndReason) {
   expect_refused({}, "is empty");
   expect_refused(bytes_of("hello, I am no picture at all"), "PNG, JPEG");
-  expect_refused(bytes_of("P6 20000 2 255\n"), "16384");
+  expect_refused(bytes_of("P6 20000 2 255\n"), "large image");
   Bytes png = encode_png({8, 8, Bytes(256, 77)});
   png.resize(png.size() / 2);
-  expect_refused(png, "damaged");
+  expect_refused(png, "no picture");
 }
 
 TEST(ReadImage, RefusesHugeHeadersBeforeDecoding) {
@@ -80,7 +80,7 @@ TEST(ReadImage, RefusesHugeHeadersBeforeDecoding) {
   };
   bmp[0] = 'B', bmp[1] = 'M';
   put(10, 54), put(14, 40), put(18, 20000), put(22, 20000), bmp[26] = 1, bmp[28] = 24;
-  expect_refused(bmp, "16384");
+  expect_refused(bmp, "large image");
 }
 
 TEST(ReadImage, FilesAreNamed) {
