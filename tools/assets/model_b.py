@@ -9,11 +9,10 @@ import textures
 
 FRAMES, RATE = 48, 24
 ROWS, COLUMNS = 43, 139
-HEIGHT, FLOOR = 1.15, 0.04
-WAIST = 0.72
+HEIGHT, FLOOR = 1.05, 0.04
 HIPS, SPINE, CHEST, FIRST_SKIRT, SKIRTS = 0, 1, 2, 3, 6
-WIDE = [(0.0, 0.43), (0.30, 0.33), (0.56, 0.205), (0.72, 0.132), (0.92, 0.172), (1.06, 0.165), (1.15, 0.150)]
-DEEP = [(0.0, 0.39), (0.30, 0.29), (0.56, 0.175), (0.72, 0.105), (0.92, 0.138), (1.06, 0.112), (1.15, 0.098)]
+WIDE = [(0.0, 0.43), (0.30, 0.33), (0.56, 0.205), (0.72, 0.132), (0.92, 0.172), (1.05, 0.180)]
+DEEP = [(0.0, 0.39), (0.30, 0.29), (0.56, 0.175), (0.72, 0.105), (0.92, 0.138), (1.05, 0.128)]
 PITCH = 0.06
 
 
@@ -21,7 +20,7 @@ def surface_point(turn, y):
     angle = 2 * math.pi * turn
     skirt = 1 - smoothstep(0.15, 0.62, y)
     folds = 1 + skirt * (0.07 * math.cos(11 * angle + 0.6 * math.sin(3 * angle)) + 0.02 * math.cos(5 * angle))
-    neckline = 0.05 * math.cos(2 * angle) * smoothstep(1.02, 1.15, y)
+    neckline = -0.035 * math.cos(angle) ** 3 * smoothstep(0.90, 1.05, y)
     return (curve(WIDE, y) * folds * math.sin(angle), FLOOR + y + neckline, curve(DEEP, y) * folds * math.cos(angle))
 
 

@@ -52,12 +52,13 @@ def trunk_influences(point):
 
 def trunk(cloth, noise):
     """Returns the point of (row, column) for the rows of the tube, then of the panels."""
-    at = {}
+    at, around = {}, {}
     for i, y in enumerate(TRUNK):
         for column in range(2 * HALF):
             loose = 0 < i < len(TRUNK) - 1 and column not in (0, HALF)
             height = y + (0.2 * 0.05 * noise.signed() if loose else 0)
-            place = trunk_point(column + (0.2 * noise.signed() if loose else 0), height)
+            around[i, column] = column + (0.2 * noise.signed() if loose else 0)
+            place = trunk_point(around[i, column], height)
             at[i, column] = cloth.point(place, trunk_influences(place))
     armpit, top = len(TRUNK) - 1, len(TRUNK) + PANEL_ROWS
     panel = list(range(SIDE, HALF - SIDE + 1))
@@ -78,8 +79,9 @@ def trunk(cloth, noise):
             at[top, column] = cloth.point(high, trunk_influences(high))
 
     def corner(row, column):
-        place = cloth.points[at[row, column % (2 * HALF)]]
-        return at[row, column % (2 * HALF)], (column * 0.058 / TILE, (0.8 - place[1]) / TILE)
+        point = at[row, column % (2 * HALF)]
+        turn = around.get((row, column), column)
+        return point, (turn * 0.058 / TILE, (0.8 - cloth.points[point][1]) / TILE)
 
     cloth.grid('trunk', [[corner(i, column) for column in range(2 * HALF + 1)] for i in range(len(TRUNK))])
     rows = range(armpit, top + 1)
@@ -164,6 +166,6 @@ def build():
         axis_angle((0, 1, 0), 15 * math.sin(w)), axis_angle((0, 0, 1), 5 * math.sin(w))) for w in wave])
     model.animate(CHEST, 'translation', times, [(0, 0.19 - 0.014 * (1 - up), 0) for up in lift])
     for joint, side in ((LEFT, 1), (RIGHT, -1)):
-        turns = [axis_angle((0, 0, 1), side * (-38 + 78 * up)) for up in lift]
+        turns = [axis_angle((0, 0, 1), side * (-22 + 62 * up)) for up in lift]
         model.animate(joint, 'rotation', times, turns)
     return model

@@ -7,7 +7,7 @@ import math
 
 from cloth import Cloth, Noise, chain_weights, eased
 from glb import Model
-from linear import add, axis_angle, smoothstep
+from linear import add, axis_angle, mix, smoothstep
 import textures
 
 FRAMES, RATE = 48, 24
@@ -16,7 +16,7 @@ LENGTH, RADIUS, HEIGHT = 2.4, 0.36, 0.75
 JOINTS = [-1.2, -0.62, -0.31, 0.0, 0.31, 0.62]      # x of the joints; the first is the tail
 REACH = 0.24
 SQUEEZE = [0.0, 0.05, 0.08, 0.10, 0.08, 0.05]       # metres that a joint comes closer to the one before
-BUCKLE = [0.0, -7.0, 5.0, 12.0, 5.0, -7.0]          # degrees up
+BUCKLE = [0.0, -4.0, 3.0, 8.0, 3.0, -4.0]          # degrees up
 
 
 def influences(x):
@@ -34,7 +34,8 @@ def hull(cloth):
         ring = []
         for j in range(AROUND):
             t, turn = i / (RINGS + 1), j / AROUND
-            if 1 < i < RINGS:
+            t = mix(t, 0.5 - 0.5 * math.cos(math.pi * t), 0.6)      # closer rings where nose and tail curve
+            if 2 < i < RINGS - 1:
                 t += 0.2 * noise.signed() / (RINGS + 1)
                 turn += 0.2 * noise.signed() / AROUND if j else 0
             x, angle = LENGTH * (t - 0.5), 2 * math.pi * turn
