@@ -17,7 +17,8 @@ struct ImportOptions {
 // Throws Error(bad_input) with file, what is wrong and what to do. What it returns has been validated.
 Model import_model(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// Throws Error(bad_input): no triangles, indices out of range, non-finite numbers, wrong counts, cyclic nodes.
+// Throws Error(bad_input): no triangles, indices out of range, non-finite numbers, wrong counts, cyclic
+// nodes.
 void validate(const Model& model);
 
 }  // namespace plisse::io

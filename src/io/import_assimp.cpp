@@ -38,7 +38,8 @@ struct Space {
   std::string up = "y";
 };
 
-// assimp 5.2.5 leaves FBX in the file's own space and hands both over as metadata; UnitScaleFactor is centimetres.
+// assimp 5.2.5 leaves FBX in the file's own space and hands both over as metadata; UnitScaleFactor is
+// centimetres.
 Space space_of_fbx(const aiScene& scene) {
   Space space;
   int axis = 1;
@@ -64,7 +65,8 @@ Space space_of_collada(const std::filesystem::path& path) {
   std::smatch match;
   static const std::regex up(R"(<up_axis>\s*([XYZ])_UP\s*</up_axis>)");
   static const std::regex unit(R"re(<unit\b[^>]*\bmeter\s*=\s*["']\s*([0-9.eE+-]+))re");
-  if (std::regex_search(head, match, up)) space.up = std::string(1, static_cast<char>(std::tolower(match.str(1)[0])));
+  if (std::regex_search(head, match, up))
+    space.up = std::string(1, static_cast<char>(std::tolower(match.str(1)[0])));
   if (std::regex_search(head, match, unit)) {
     const double metres = std::atof(match.str(1).c_str());
     if (metres > 0 && std::isfinite(metres)) space.metres_per_unit = metres;
@@ -79,9 +81,10 @@ int add_node(const aiNode& from, int parent, AssimpScene& scene, Model& model) {
   node.parent = parent;
   node.local = mat4(from.mTransformation);
   if (!scene.node_ids.emplace(node.name, id).second && !node.name.empty())
-    log::warn_once("node names " + scene.path.string(),
-                   fmt::format("{}: several nodes are called '{}'; animation and bones go to the first of them",
-                               scene.path.string(), node.name));
+    log::warn_once(
+        "node names " + scene.path.string(),
+        fmt::format("{}: several nodes are called '{}'; animation and bones go to the first of them",
+                    scene.path.string(), node.name));
   for (unsigned c = 0; c < from.mNumChildren; ++c) add_node(*from.mChildren[c], id, scene, model);
   return id;
 }
@@ -99,7 +102,8 @@ void hang_meshes(const aiNode& from, int& id, const AssimpScene& scene, Model& m
     const aiMesh& source = *scene.scene.mMeshes[from.mMeshes[m]];
     for (std::size_t t = 0; t < targets; ++t) {
       const double weight = static_cast<double>(source.mAnimMeshes[t]->mWeight);
-      // For FBX 5.2.5 writes 1 wherever a channel has one shape, whatever the file says; 0 is what files mean.
+      // For FBX 5.2.5 writes 1 wherever a channel has one shape, whatever the file says; 0 is what files
+      // mean.
       node.morph_weights[t] = scene.kind == FileKind::fbx && weight == 1 ? 0 : weight;
     }
   }
@@ -121,7 +125,8 @@ void read_cameras(const AssimpScene& from, Model& model) {
     Node& turned = model.nodes.emplace_back();
     turned.name = std::string(source.mName.C_Str()) + " (view)";
     turned.parent = node->second;
-    turned.local = glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(vec3(source.mPosition), 1)};
+    turned.local = glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0),
+                              glm::dvec4(vec3(source.mPosition), 1)};
 
     Camera& camera = model.cameras.emplace_back();
     camera.name = source.mName.C_Str();

@@ -8,7 +8,8 @@
 
 namespace plisse::io {
 
-// Throws Error(bad_input) with assimp's own words where it cannot read the file. The result is not yet validated.
+// Throws Error(bad_input) with assimp's own words where it cannot read the file. The result is not yet
+// validated.
 Model import_assimp(const std::filesystem::path& path, const ImportOptions& options);
 
 }  // namespace plisse::io

@@ -39,12 +39,14 @@ int node_of_morph(const AssimpScene& from, const std::string& name) {
 
 Keys<std::vector<double>> read_morph_keys(const aiMeshMorphAnim& source, double ticks_per_second,
                                           const std::vector<double>& rest_weights) {
-  return read_keys<std::vector<double>>(source.mKeys, source.mNumKeys, ticks_per_second, [&](const aiMeshMorphKey& key) {
-    std::vector<double> weights = rest_weights;
-    for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
-      if (key.mValues[i] < weights.size()) weights[key.mValues[i]] = key.mWeights[i];
-    return weights;
-  });
+  return read_keys<std::vector<double>>(source.mKeys, source.mNumKeys, ticks_per_second,
+                                        [&](const aiMeshMorphKey& key) {
+                                          std::vector<double> weights = rest_weights;
+                                          for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
+                                            if (key.mValues[i] < weights.size())
+                                              weights[key.mValues[i]] = key.mWeights[i];
+                                          return weights;
+                                        });
 }
 
 }  // namespace
@@ -72,8 +74,9 @@ void read_clips(const AssimpScene& from, Model& model) {
         continue;
       }
       Channel& channel = channel_of(node->second);
-      channel.translation = read_keys<glm::dvec3>(motion.mPositionKeys, motion.mNumPositionKeys, ticks_per_second,
-                                                  [](const aiVectorKey& key) { return vec3(key.mValue); });
+      channel.translation =
+          read_keys<glm::dvec3>(motion.mPositionKeys, motion.mNumPositionKeys, ticks_per_second,
+                                [](const aiVectorKey& key) { return vec3(key.mValue); });
       channel.rotation = read_keys<glm::dquat>(
           motion.mRotationKeys, motion.mNumRotationKeys, ticks_per_second, [](const aiQuatKey& key) {
             return glm::dquat(static_cast<double>(key.mValue.w), static_cast<double>(key.mValue.x),
@@ -94,8 +97,8 @@ void read_clips(const AssimpScene& from, Model& model) {
     }
     if (lost > 0)
       log::warn_once("channels " + from.path.string() + clip.name,
-                     fmt::format("{}: {} channels of clip '{}' move nothing that the file has", from.path.string(), lost,
-                                 clip.name));
+                     fmt::format("{}: {} channels of clip '{}' move nothing that the file has",
+                                 from.path.string(), lost, clip.name));
 
     double last = 0;
     const auto see = [&](const std::vector<double>& times) {

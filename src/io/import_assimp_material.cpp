@@ -16,8 +16,8 @@ namespace {
 // An embedded picture is a whole file (height 0, width its size in bytes) or bare BGRA texels.
 int load_embedded(const aiTexture& source, const std::string& name, Model& model) {
   if (source.mHeight == 0)
-    return load_texture_bytes(std::as_bytes(std::span(reinterpret_cast<const char*>(source.pcData), source.mWidth)),
-                              name, model);
+    return load_texture_bytes(
+        std::as_bytes(std::span(reinterpret_cast<const char*>(source.pcData), source.mWidth)), name, model);
   Texture texture;
   texture.name = name;
   texture.image.width = static_cast<int>(source.mWidth);
@@ -54,14 +54,16 @@ void read_alpha(const aiMaterial& source, FileKind kind, Material& material) {
     if (source.Get(AI_MATKEY_GLTF_ALPHACUTOFF, value) == aiReturn_SUCCESS) material.alpha_cutoff = value;
     return;
   }
-  // Programs disagree whether 0 means clear or solid; a material that nobody could see is not what they meant.
+  // Programs disagree whether 0 means clear or solid; a material that nobody could see is not what they
+  // meant.
   if (source.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS && value > 0 && value < 1) {
     material.base_colour.a = value;
     material.alpha = Material::Alpha::blend;
   }
 }
 
-Material read_material(const AssimpScene& from, const aiMaterial& source, unsigned& uv_channel, Model& model) {
+Material read_material(const AssimpScene& from, const aiMaterial& source, unsigned& uv_channel,
+                       Model& model) {
   Material material;
   material.name = source.GetName().C_Str();
 

@@ -15,7 +15,8 @@ struct BoneWeight {
   double weight;
 };
 
-// The strongest eight, renormalised (Model: Influences). The vertex is the mesh's `unbound` bone's where it has none.
+// The strongest eight, renormalised (Model: Influences). The vertex is the mesh's `unbound` bone's where it
+// has none.
 Influences strongest(std::vector<BoneWeight>& weights, std::uint32_t unbound) {
   std::stable_sort(weights.begin(), weights.end(),
                    [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
@@ -74,9 +75,10 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
   }
   mesh.file_max_influences = static_cast<int>(most);
   if (cut > 0)
-    log::warn_once("influences " + from.path.string() + mesh.name,
-                   fmt::format("{}: mesh '{}' has up to {} bones on a vertex; the strongest {} are kept on {} vertices",
-                               from.path.string(), mesh.name, most, max_influences, cut));
+    log::warn_once(
+        "influences " + from.path.string() + mesh.name,
+        fmt::format("{}: mesh '{}' has up to {} bones on a vertex; the strongest {} are kept on {} vertices",
+                    from.path.string(), mesh.name, most, max_influences, cut));
   const auto own_bone = static_cast<std::uint32_t>(mesh.bones.size());
   if (unbound > 0) {
     const aiNode* node = node_with(*from.scene.mRootNode, mesh_id);
@@ -115,7 +117,8 @@ Mesh read_mesh(const AssimpScene& from, unsigned mesh_id) {
     mesh.triangles.clear();
     return mesh;
   }
-  mesh.material = source.mMaterialIndex < from.scene.mNumMaterials ? static_cast<int>(source.mMaterialIndex) : -1;
+  mesh.material =
+      source.mMaterialIndex < from.scene.mNumMaterials ? static_cast<int>(source.mMaterialIndex) : -1;
   const unsigned count = source.mNumVertices;
   mesh.positions.reserve(count);
   for (unsigned v = 0; v < count; ++v) mesh.positions.push_back(vec3(source.mVertices[v]));

@@ -22,13 +22,16 @@ struct AssimpScene {
   FileKind kind;
   std::filesystem::path path;
   std::unordered_map<std::string, int> node_ids;  // first node of each name → index into Model::nodes
-  std::vector<int> mesh_ids;                      // aiMesh → index into Model::meshes, −1 without triangles
-  std::vector<unsigned> uv_channels;              // per aiMaterial: the uv set of its base-colour texture
+  std::vector<int> mesh_ids;          // aiMesh → index into Model::meshes, −1 without triangles
+  std::vector<unsigned> uv_channels;  // per aiMaterial: the uv set of its base-colour texture
 };
 
-inline glm::dvec3 vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+inline glm::dvec3 vec3(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
 inline glm::dmat4 mat4(const aiMatrix4x4& m) {
-  return {{m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
+  return {
+      {m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
 }
 
 void read_materials(AssimpScene& from, Model& model);  // and textures; fills uv_channels

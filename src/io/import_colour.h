@@ -1,19 +1,18 @@
 // Colours of files into linear light, the space of io::Material.
 #pragma once
 
-#include <cmath>
 #include <glm/glm.hpp>
+
+#include "base/colour.h"
 
 namespace plisse::io {
 
-// The sRGB transfer function (IEC 61966-2-1), encoded 0…1 to linear 0…1.
-inline float linear(float encoded) {
-  const float x = glm::clamp(encoded, 0.0F, 1.0F);
-  return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
-}
-
+// sRGB to linear per channel; what lies outside 0…1 is clamped.
 inline glm::vec3 linear(const glm::vec3& encoded) {
-  return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
+  glm::vec3 result{0};
+  for (int c = 0; c < 3; ++c)
+    result[c] = static_cast<float>(srgb_to_linear(glm::clamp(static_cast<double>(encoded[c]), 0.0, 1.0)));
+  return result;
 }
 
 }  // namespace plisse::io

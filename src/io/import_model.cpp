@@ -29,15 +29,18 @@ Reader reader_for(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return import_sequence;
   if (std::filesystem::exists(path)) {
     if (extension == ".obj") return import_obj;
-    if (std::find(with_assimp.begin(), with_assimp.end(), extension) != with_assimp.end()) return import_assimp;
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: not a kind of model this program reads; it reads glb, gltf, fbx, dae, x, ply, stl, "
-                            "3ds, obj and numbered sequences of obj",
-                            path.string()));
+    if (std::find(with_assimp.begin(), with_assimp.end(), extension) != with_assimp.end())
+      return import_assimp;
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("{}: not a kind of model this program reads; it reads glb, gltf, fbx, dae, x, ply, stl, "
+                    "3ds, obj and numbered sequences of obj",
+                    path.string()));
   }
   if (is_sequence_pattern(path)) {
     if (extension == ".obj") return import_sequence;
-    throw Error(ExitCode::bad_input, fmt::format("{}: sequences are read from OBJ files only", path.string()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: sequences are read from OBJ files only", path.string()));
   }
   throw Error(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
 }

@@ -109,7 +109,8 @@ class ObjParser {
   }
 
   void start_run() {
-    if (!file_.runs.empty() && file_.runs.back().first_triangle == file_.triangles.size()) file_.runs.pop_back();
+    if (!file_.runs.empty() && file_.runs.back().first_triangle == file_.triangles.size())
+      file_.runs.pop_back();
     file_.runs.push_back({name_, material_, file_.triangles.size()});
   }
 
@@ -130,7 +131,8 @@ class ObjParser {
     if (word.empty()) return -1;
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) fail(fmt::format("'{}' is not an index", word));
+    if (error != std::errc{} || end != word.data() + word.size())
+      fail(fmt::format("'{}' is not an index", word));
     const std::int64_t resolved = value < 0 ? value + static_cast<std::int64_t>(count) : value - 1;
     if (resolved < 0 || resolved >= static_cast<std::int64_t>(count))
       fail(fmt::format("{} {} does not exist: the file has {} so far", what, value, count));
@@ -165,7 +167,8 @@ class ObjParser {
   std::vector<ObjFile::Corner> polygon_;
 };
 
-// Kd (sRGB, as modelling programs write it), d or Tr, map_Kd. A library that is missing costs colours, not the model.
+// Kd (sRGB, as modelling programs write it), d or Tr, map_Kd. A library that is missing costs colours, not
+// the model.
 void read_materials(const std::filesystem::path& obj, const std::string& library, Model& model,
                     std::map<std::string, int>& ids) {
   const std::filesystem::path path = find_texture(obj, library);
@@ -187,7 +190,8 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
     } else if (material == nullptr) {
       return;
     } else if (glm::vec3 colour{1}; key == "Kd" && words >> colour.r >> colour.g >> colour.b) {
-      if (material->base_colour_texture < 0) material->base_colour = {linear(colour), material->base_colour.a};
+      if (material->base_colour_texture < 0)
+        material->base_colour = {linear(colour), material->base_colour.a};
     } else if ((key == "d" || key == "Tr") && words >> value) {
       const float alpha = key == "d" ? value : 1 - value;
       // Some writers mean 0 by Tr and d alike; a material that nobody could see is not what they meant.
@@ -205,7 +209,9 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
 
 }  // namespace
 
-ObjFile read_obj_file(const std::filesystem::path& path) { return ObjParser(path).parse(); }
+ObjFile read_obj_file(const std::filesystem::path& path) {
+  return ObjParser(path).parse();
+}
 
 Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<std::uint32_t>& sources) {
   Model model;
@@ -231,7 +237,8 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
   std::vector<std::vector<std::uint32_t>> mesh_sources;
   for (std::size_t r = 0; r < file.runs.size(); ++r) {
     const ObjFile::Run& run = file.runs[r];
-    const std::size_t end = r + 1 < file.runs.size() ? file.runs[r + 1].first_triangle : file.triangles.size();
+    const std::size_t end =
+        r + 1 < file.runs.size() ? file.runs[r + 1].first_triangle : file.triangles.size();
     if (run.first_triangle == end) continue;
     const auto [entry, added] = mesh_ids.try_emplace({run.name, run.material}, model.meshes.size());
     const std::size_t id = entry->second;
@@ -246,16 +253,17 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
     Mesh& mesh = model.meshes[id];
     for (std::size_t t = run.first_triangle; t < end; ++t)
       for (const ObjFile::Corner& corner : file.triangles[t]) {
-        const auto [vertex, fresh] = vertex_ids[id].try_emplace({corner.position, corner.uv, corner.normal},
-                                                                static_cast<std::uint32_t>(mesh.positions.size()));
+        const auto [vertex, fresh] = vertex_ids[id].try_emplace(
+            {corner.position, corner.uv, corner.normal}, static_cast<std::uint32_t>(mesh.positions.size()));
         if (fresh) {
-          mesh.positions.emplace_back(world *
-                                      glm::dvec4(file.positions[static_cast<std::size_t>(corner.position)], 1));
+          mesh.positions.emplace_back(
+              world * glm::dvec4(file.positions[static_cast<std::size_t>(corner.position)], 1));
           mesh_sources[id].push_back(static_cast<std::uint32_t>(corner.position));
           // A corner without uv or normal gets a blank, and the mesh loses the array where all are blank.
           mesh.uvs.push_back(corner.uv < 0 ? glm::vec2{0} : file.uvs[static_cast<std::size_t>(corner.uv)]);
-          const glm::dvec3 normal = corner.normal < 0 ? glm::dvec3{0}
-                                                      : glm::dvec3(file.normals[static_cast<std::size_t>(corner.normal)]);
+          const glm::dvec3 normal = corner.normal < 0
+                                        ? glm::dvec3{0}
+                                        : glm::dvec3(file.normals[static_cast<std::size_t>(corner.normal)]);
           const double length = glm::length(normal);
           mesh.normals.emplace_back(length > 0 ? glm::dmat3(world) * normal / (length * model.metres_per_unit)
                                                : glm::dvec3{0});

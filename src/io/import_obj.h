@@ -1,5 +1,5 @@
-// Wavefront OBJ and MTL, as far as a surface needs them. Our own reader, because a sequence lives from every vertex
-// keeping its number over the frames, which general importers do not promise.
+// Wavefront OBJ and MTL, as far as a surface needs them. Our own reader, because a sequence lives from every
+// vertex keeping its number over the frames, which general importers do not promise.
 #pragma once
 
 #include <array>
@@ -34,11 +34,12 @@ struct ObjFile {
   std::vector<std::string> libraries;  // mtllib
 };
 
-// Throws Error(bad_input) with file:line for numbers that cannot be read, faces with fewer than three corners and
-// indices that point nowhere.
+// Throws Error(bad_input) with file:line for numbers that cannot be read, faces with fewer than three corners
+// and indices that point nowhere.
 ObjFile read_obj_file(const std::filesystem::path& path);
 
-// The file as a Model with one node; `sources` gets, mesh by mesh, the OBJ position that each vertex came from.
+// The file as a Model with one node; `sources` gets, mesh by mesh, the OBJ position that each vertex came
+// from.
 Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<std::uint32_t>& sources);
 
 // A single OBJ: a static model.

@@ -20,7 +20,8 @@ glm::dmat4 upright(const std::string& up) {
 
 glm::dmat4 file_to_world(const std::string& up, double metres_per_unit) {
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit))
-    throw Error(ExitCode::bad_input, fmt::format("unit of {} metres: expected a positive number", metres_per_unit));
+    throw Error(ExitCode::bad_input,
+                fmt::format("unit of {} metres: expected a positive number", metres_per_unit));
   return glm::scale(glm::dmat4{1}, glm::dvec3{metres_per_unit}) * upright(up);
 }
 

@@ -11,7 +11,8 @@ namespace plisse::io {
 // becomes (−y, x, z). Throws Error(bad_input) for any other name.
 glm::dmat4 upright(const std::string& up);
 
-// upright(up) and then metres. Throws Error(bad_input) where metres_per_unit is not a positive, finite number.
+// upright(up) and then metres. Throws Error(bad_input) where metres_per_unit is not a positive, finite
+// number.
 glm::dmat4 file_to_world(const std::string& up, double metres_per_unit);
 
 }  // namespace plisse::io

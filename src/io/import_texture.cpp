@@ -50,8 +50,8 @@ std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string&
   Image image;
   int channels = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels{
-      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &image.width,
-                            &image.height, &channels, 4),
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()),
+                            &image.width, &image.height, &channels, 4),
       stbi_image_free};
   if (!pixels) {
     why = stbi_failure_reason();
@@ -68,8 +68,8 @@ std::filesystem::path find_texture(const std::filesystem::path& model, const std
   if (decoded.starts_with("file://")) decoded.erase(0, 7);
   const fs::path folder = model.parent_path();
   const fs::path bare = fs::path(decoded).filename();
-  const std::array<fs::path, 5> candidates{folder / name, folder / decoded, folder / bare, folder / "textures" / bare,
-                                           folder / "Textures" / bare};
+  const std::array<fs::path, 5> candidates{folder / name, folder / decoded, folder / bare,
+                                           folder / "textures" / bare, folder / "Textures" / bare};
   for (const fs::path& candidate : candidates) {
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate;
@@ -83,8 +83,9 @@ int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name
   std::string why;
   std::optional<Image> image = decode_image(bytes, why);
   if (!image) {
-    log::warn_once("texture " + name,
-                   fmt::format("texture '{}' cannot be decoded ({}); the base colour stands in for it", name, why));
+    log::warn_once(
+        "texture " + name,
+        fmt::format("texture '{}' cannot be decoded ({}); the base colour stands in for it", name, why));
     return -1;
   }
   model.textures.push_back({name, std::move(*image)});
@@ -94,8 +95,9 @@ int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name
 int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Model& model) {
   const std::filesystem::path path = find_texture(model_file, name);
   if (path.empty()) {
-    log::warn_once("texture " + name, fmt::format("{}: texture '{}' not found beside it; the base colour stands in for it",
-                                                  model_file.string(), name));
+    log::warn_once("texture " + name,
+                   fmt::format("{}: texture '{}' not found beside it; the base colour stands in for it",
+                               model_file.string(), name));
     return -1;
   }
   std::ifstream stream(path, std::ios::binary);

@@ -14,12 +14,14 @@ namespace plisse::io {
 // Decodes a picture file held in memory; nothing where it cannot be decoded, with the reason in `why`.
 std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string& why);
 
-// Finds a texture that a model file names, although the path may be another machine's: as given, with / for \ and
-// %20 decoded, relative to the model's folder, then by its bare name there and in textures/. Empty if not found.
+// Finds a texture that a model file names, although the path may be another machine's: as given, with / for
+// \ and %20 decoded, relative to the model's folder, then by its bare name there and in textures/. Empty if
+// not found.
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name);
 
-// Adds the texture to model.textures, or finds it there under the same name. `model_file` is the file that names it.
-// −1, after one warning, where it is missing or cannot be decoded: the base colour stands in for it.
+// Adds the texture to model.textures, or finds it there under the same name. `model_file` is the file that
+// names it. −1, after one warning, where it is missing or cannot be decoded: the base colour stands in for
+// it.
 int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Model& model);
 int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Model& model);
 

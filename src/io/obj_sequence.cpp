@@ -26,7 +26,9 @@ struct Pattern {
   std::string before, after;
   std::size_t digits = 1;  // at least so many, zeros in front
 
-  std::string name(std::uint64_t number) const { return fmt::format("{}{:0{}}{}", before, number, digits, after); }
+  std::string name(std::uint64_t number) const {
+    return fmt::format("{}{:0{}}{}", before, number, digits, after);
+  }
   bool operator<(const Pattern& other) const {
     return std::tie(before, after) < std::tie(other.before, other.after);
   }
@@ -56,7 +58,8 @@ std::optional<std::uint64_t> number_in(const std::string& name, const Pattern& p
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -66,8 +69,7 @@ Pattern pattern_of_folder(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (lower(entry.path().extension().string()) != ".obj") continue;
     const std::string stem = entry.path().stem().string();
-    const std::size_t digits =
-        stem.size() - std::min(stem.find_last_not_of("0123456789") + 1, stem.size());
+    const std::size_t digits = stem.size() - std::min(stem.find_last_not_of("0123456789") + 1, stem.size());
     if (digits == 0) continue;
     Pattern pattern{stem.substr(0, stem.size() - digits), entry.path().extension().string(), digits};
     const auto known = patterns.find(pattern);
@@ -79,8 +81,9 @@ Pattern pattern_of_folder(const fs::path& folder) {
     patterns.insert(pattern);
   }
   if (patterns.empty())
-    throw Error(ExitCode::bad_input, fmt::format("{}: a folder without numbered OBJ files (such as drape_0001.obj)",
-                                                 folder.string()));
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("{}: a folder without numbered OBJ files (such as drape_0001.obj)", folder.string()));
   if (patterns.size() > 1) {
     std::vector<std::string> names;
     for (const Pattern& pattern : patterns)
@@ -102,7 +105,9 @@ bool same_faces(const ObjFile& a, const ObjFile& b) {
 
 }  // namespace
 
-bool is_sequence_pattern(const fs::path& path) { return parse_pattern(path.filename().string()).has_value(); }
+bool is_sequence_pattern(const fs::path& path) {
+  return parse_pattern(path.filename().string()).has_value();
+}
 
 std::vector<fs::path> sequence_files(const fs::path& pattern_or_folder) {
   const bool is_folder = fs::is_directory(pattern_or_folder);
@@ -113,8 +118,9 @@ std::vector<fs::path> sequence_files(const fs::path& pattern_or_folder) {
   const std::optional<Pattern> pattern =
       is_folder ? pattern_of_folder(folder) : parse_pattern(pattern_or_folder.filename().string());
   if (!pattern)
-    throw Error(ExitCode::bad_input, fmt::format("{}: no place for a frame number; write ####, %04d or {{frame:04}}",
-                                                 pattern_or_folder.string()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: no place for a frame number; write ####, %04d or {{frame:04}}",
+                            pattern_or_folder.string()));
 
   std::map<std::uint64_t, fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -122,18 +128,20 @@ std::vector<fs::path> sequence_files(const fs::path& pattern_or_folder) {
     if (!number) continue;
     const auto [known, added] = files.emplace(*number, entry.path());
     if (!added)
-      throw Error(ExitCode::bad_input, fmt::format("{} and {}: two files with the number {}", known->second.string(),
-                                                   entry.path().filename().string(), *number));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{} and {}: two files with the number {}", known->second.string(),
+                              entry.path().filename().string(), *number));
   }
   if (files.empty())
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: no file fits this pattern", (folder / pattern_or_folder.filename()).string()));
+    throw Error(ExitCode::bad_input, fmt::format("{}: no file fits this pattern",
+                                                 (folder / pattern_or_folder.filename()).string()));
   std::vector<fs::path> result;
   for (std::uint64_t number = files.begin()->first; const auto& [found, path] : files) {
     if (found != number)
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: missing from the sequence {} … {}", (folder / pattern->name(number)).string(),
-                              files.begin()->second.filename().string(), files.rbegin()->second.filename().string()));
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: missing from the sequence {} … {}", (folder / pattern->name(number)).string(),
+                      files.begin()->second.filename().string(), files.rbegin()->second.filename().string()));
     result.push_back(path);
     ++number;
   }
@@ -148,17 +156,20 @@ Model import_obj_sequence(const std::vector<fs::path>& files, const ImportOption
   for (const fs::path& path : files) {
     const ObjFile file = &path == &files.front() ? first : read_obj_file(path);
     if (file.positions.size() != first.positions.size() || file.triangles.size() != first.triangles.size())
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: {} vertices and {} triangles, but {} has {} and {}; a sequence must keep its mesh",
-                              path.string(), file.positions.size(), file.triangles.size(), first.path.string(),
-                              first.positions.size(), first.triangles.size()));
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: {} vertices and {} triangles, but {} has {} and {}; a sequence must keep its mesh",
+                      path.string(), file.positions.size(), file.triangles.size(), first.path.string(),
+                      first.positions.size(), first.triangles.size()));
     if (!same_faces(file, first))
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: its faces join other vertices than those of {}; a sequence must keep its mesh",
-                              path.string(), first.path.string()));
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: its faces join other vertices than those of {}; a sequence must keep its mesh",
+                      path.string(), first.path.string()));
     std::vector<glm::dvec3>& frame = model.cache.frames.emplace_back();
     frame.reserve(sources.size());
-    for (const std::uint32_t source : sources) frame.emplace_back(world * glm::dvec4(file.positions[source], 1));
+    for (const std::uint32_t source : sources)
+      frame.emplace_back(world * glm::dvec4(file.positions[source], 1));
     model.cache.names.push_back(path.string());
   }
   return model;

@@ -13,12 +13,12 @@ namespace plisse::io {
 // True where the name holds a place for a number in one of the three spellings.
 bool is_sequence_pattern(const std::filesystem::path& path);
 
-// The files in the order of their numbers. Throws Error(bad_input) where there are none, where one between the
-// lowest and the highest number is missing (named), and where a folder holds several sequences (named).
+// The files in the order of their numbers. Throws Error(bad_input) where there are none, where one between
+// the lowest and the highest number is missing (named), and where a folder holds several sequences (named).
 std::vector<std::filesystem::path> sequence_files(const std::filesystem::path& pattern_or_folder);
 
-// Faces, uv, normals and materials come from the first file. Throws Error(bad_input), naming the file, where a
-// later one has other counts or other faces.
+// Faces, uv, normals and materials come from the first file. Throws Error(bad_input), naming the file, where
+// a later one has other counts or other faces.
 Model import_obj_sequence(const std::vector<std::filesystem::path>& files, const ImportOptions& options);
 
 }  // namespace plisse::io

@@ -1,6 +1,6 @@
-// What every Model must keep, whichever reader made it. Values of animation keys may be non-finite: a pose made of
-// them is held back later (contract.md, "Exit codes"); everything else here decides memory and indices and must be
-// sound.
+// What every Model must keep, whichever reader made it. Values of animation keys may be non-finite: a pose
+// made of them is held back later (contract.md, "Exit codes"); everything else here decides memory and
+// indices and must be sound.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,10 +11,18 @@
 namespace plisse::io {
 namespace {
 
-bool finite(double value) { return std::isfinite(value); }
-bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(double value) {
+  return std::isfinite(value);
+}
+bool finite(const glm::vec2& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 bool finite(const glm::dmat4& m) {
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
@@ -40,8 +48,8 @@ class Check {
     if (!shown) fail("no node places any of its meshes: there is nothing to show");
     for (const Clip& item : model_.clips) clip(item);
     for (const Camera& item : model_.cameras)
-      if (!is_node(item.node)) fail(fmt::format("camera '{}' stands at node {}, of {}", item.name, item.node,
-                                                model_.nodes.size()));
+      if (!is_node(item.node))
+        fail(fmt::format("camera '{}' stands at node {}, of {}", item.name, item.node, model_.nodes.size()));
     cache();
   }
 
@@ -77,8 +85,10 @@ class Check {
   void texture(const Texture& item) const {
     const Image& image = item.image;
     if (image.width <= 0 || image.height <= 0 ||
-        image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-      fail(fmt::format("texture '{}' of {}×{} has {} bytes", item.name, image.width, image.height, image.rgba.size()));
+        image.rgba.size() !=
+            std::size_t{4} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+      fail(fmt::format("texture '{}' of {}×{} has {} bytes", item.name, image.width, image.height,
+                       image.rgba.size()));
   }
 
   void mesh(const Mesh& item) const {
@@ -107,23 +117,29 @@ class Check {
 
   void bones(const Mesh& item, const std::string& name) const {
     if (item.influences.size() != (item.bones.empty() ? 0 : item.positions.size()))
-      fail(fmt::format("{}{} vertices, {} with bone weights", name, item.positions.size(), item.influences.size()));
+      fail(fmt::format("{}{} vertices, {} with bone weights", name, item.positions.size(),
+                       item.influences.size()));
     for (std::size_t b = 0; b < item.bones.size(); ++b) {
       if (!is_node(item.bones[b].node))
-        fail(fmt::format("{}bone {} moves with node {}, of {}", name, b, item.bones[b].node, model_.nodes.size()));
-      if (!finite(item.bones[b].offset)) fail(fmt::format("{}the bind matrix of bone {} is not finite", name, b));
+        fail(fmt::format("{}bone {} moves with node {}, of {}", name, b, item.bones[b].node,
+                         model_.nodes.size()));
+      if (!finite(item.bones[b].offset))
+        fail(fmt::format("{}the bind matrix of bone {} is not finite", name, b));
     }
     for (std::size_t v = 0; v < item.influences.size(); ++v) {
       double sum = 0;
       for (std::size_t i = 0; i < max_influences; ++i) {
         const float weight = item.influences[v].weight[i];
-        if (!(weight >= 0) || !std::isfinite(weight)) fail(fmt::format("{}vertex {} has a bone weight of {}", name, v, weight));
+        if (!(weight >= 0) || !std::isfinite(weight))
+          fail(fmt::format("{}vertex {} has a bone weight of {}", name, v, weight));
         if (weight > 0 && item.influences[v].bone[i] >= item.bones.size())
-          fail(fmt::format("{}vertex {} names bone {}, of {}", name, v, item.influences[v].bone[i], item.bones.size()));
+          fail(fmt::format("{}vertex {} names bone {}, of {}", name, v, item.influences[v].bone[i],
+                           item.bones.size()));
         sum += static_cast<double>(weight);
       }
       // Eight rounded weights: 8 · 2^-24, and a decade of room.
-      if (std::abs(sum - 1) > 5e-6) fail(fmt::format("{}the bone weights of vertex {} sum to {}, not 1", name, v, sum));
+      if (std::abs(sum - 1) > 5e-6)
+        fail(fmt::format("{}the bone weights of vertex {} sum to {}, not 1", name, v, sum));
     }
   }
 
@@ -131,8 +147,8 @@ class Check {
   bool node(std::size_t id) const {
     const Node& item = model_.nodes[id];
     if (item.parent < -1 || item.parent >= static_cast<int>(id))
-      fail(fmt::format("node {} '{}' has the parent {}: parents must come before their children", id, item.name,
-                       item.parent));
+      fail(fmt::format("node {} '{}' has the parent {}: parents must come before their children", id,
+                       item.name, item.parent));
     if (!finite(item.local)) fail(fmt::format("the matrix of node '{}' is not finite", item.name));
     all_finite(item.morph_weights, fmt::format("node '{}': morph weight", item.name));
     std::size_t targets = 0;
@@ -142,7 +158,8 @@ class Check {
       targets = std::max(targets, model_.meshes[static_cast<std::size_t>(mesh_id)].targets.size());
     }
     if (item.morph_weights.size() != targets)
-      fail(fmt::format("node '{}' has {} morph weights for {} targets", item.name, item.morph_weights.size(), targets));
+      fail(fmt::format("node '{}' has {} morph weights for {} targets", item.name, item.morph_weights.size(),
+                       targets));
     return !item.meshes.empty();
   }
 
@@ -152,11 +169,12 @@ class Check {
       fail(fmt::format("{}{} key times for {} values", name, track.times.size(), track.values.size()));
     if (track.interpolation == Interpolation::cubic_spline &&
         (track.in_tangents.size() != track.times.size() || track.out_tangents.size() != track.times.size()))
-      fail(fmt::format("{}{} keys with {} and {} tangents", name, track.times.size(), track.in_tangents.size(),
-                       track.out_tangents.size()));
+      fail(fmt::format("{}{} keys with {} and {} tangents", name, track.times.size(),
+                       track.in_tangents.size(), track.out_tangents.size()));
     all_finite(track.times, name + "key time");
     for (std::size_t k = 1; k < track.times.size(); ++k)
-      if (!(track.times[k] > track.times[k - 1])) fail(fmt::format("{}key {} does not come after the one before", name, k));
+      if (!(track.times[k] > track.times[k - 1]))
+        fail(fmt::format("{}key {} does not come after the one before", name, k));
   }
 
   void clip(const Clip& item) const {
@@ -170,8 +188,8 @@ class Check {
       keys(channel.scale, name + "scale: ");
       keys(channel.morph_weights, name + "morph weights: ");
       const std::size_t targets = model_.nodes[static_cast<std::size_t>(channel.node)].morph_weights.size();
-      for (const auto* list :
-           {&channel.morph_weights.values, &channel.morph_weights.in_tangents, &channel.morph_weights.out_tangents})
+      for (const auto* list : {&channel.morph_weights.values, &channel.morph_weights.in_tangents,
+                               &channel.morph_weights.out_tangents})
         for (const std::vector<double>& weights : *list)
           if (weights.size() != targets)
             fail(fmt::format("{}{} morph weights for {} targets", name, weights.size(), targets));
@@ -186,8 +204,8 @@ class Check {
       fail(fmt::format("a cache of {} frames a second", model_.cache.frames_per_second));
     for (std::size_t f = 0; f < model_.cache.frames.size(); ++f)
       if (model_.cache.frames[f].size() != vertices)
-        fail(fmt::format("frame {} of the cache has {} positions for {} vertices", f + 1, model_.cache.frames[f].size(),
-                         vertices));
+        fail(fmt::format("frame {} of the cache has {} positions for {} vertices", f + 1,
+                         model_.cache.frames[f].size(), vertices));
   }
 
   const Model& model_;
@@ -195,6 +213,8 @@ class Check {
 
 }  // namespace
 
-void validate(const Model& model) { Check(model).run(); }
+void validate(const Model& model) {
+  Check(model).run();
+}
 
 }  // namespace plisse::io

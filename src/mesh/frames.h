@@ -8,12 +8,13 @@
 
 namespace plisse {
 
-// Unit sum of the corner cross products around a vertex, or `fallback` where they cancel. Needs surface.corners;
-// positions: one per welded vertex, any unit.
+// Unit sum of the corner cross products around a vertex, or `fallback` where they cancel. Needs
+// surface.corners; positions: one per welded vertex, any unit.
 glm::dvec3 area_normal(const Surface& surface, const std::vector<glm::dvec3>& positions, std::size_t vertex,
                        const glm::dvec3& fallback);
 
-// The coordinate axis with the smallest |component| of the unit normal (the first on ties), made perpendicular to it.
+// The coordinate axis with the smallest |component| of the unit normal (the first on ties), made
+// perpendicular to it.
 glm::dvec3 any_perpendicular(const glm::dvec3& normal);
 
 // Unit tangential part of an edge, or any_perpendicular where the edge has none.

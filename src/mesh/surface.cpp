@@ -1,4 +1,5 @@
-// Adjacency and rest frames of the welded surface (docs/passes.md, "Data per welded vertex", "Skin", "Crush").
+// Adjacency and rest frames of the welded surface (docs/passes.md, "Data per welded vertex", "Skin",
+// "Crush").
 #include "mesh/surface.h"
 
 #include <algorithm>
@@ -49,8 +50,10 @@ void build_adjacency(Surface& surface) {
 glm::dvec3 any_perpendicular(const glm::dvec3& normal) {
   const glm::dvec3 size = glm::abs(normal);
   glm::dvec3 axis{1, 0, 0};
-  if (size.y < size.x && size.y <= size.z) axis = {0, 1, 0};
-  else if (size.z < size.x && size.z < size.y) axis = {0, 0, 1};
+  if (size.y < size.x && size.y <= size.z)
+    axis = {0, 1, 0};
+  else if (size.z < size.x && size.z < size.y)
+    axis = {0, 0, 1};
   return glm::normalize(axis - glm::dot(axis, normal) * normal);
 }
 

@@ -1,7 +1,8 @@
-// The surface that the passes work on: all instances of all meshes of a model, welded for skin, crush and relax,
-// and split again at seams for render (Loviscach 2006, section 3 and fig. 3).
+// The surface that the passes work on: all instances of all meshes of a model, welded for skin, crush and
+// relax, and split again at seams for render (Loviscach 2006, section 3 and fig. 3).
 //
-// Units: metres of the world, y up. "Rest" is the pose in which wrinkles are zero and wavelengths are measured.
+// Units: metres of the world, y up. "Rest" is the pose in which wrinkles are zero and wavelengths are
+// measured.
 #pragma once
 
 #include <array>
@@ -38,29 +39,29 @@ struct RenderVertex {
 
 // A run of triangles that came from one mesh instance: the unit of selection and of material.
 struct Part {
-  std::string mesh;            // names for --only and --exclude
+  std::string mesh;  // names for --only and --exclude
   std::string material_name;
-  int material = -1;           // index into io::Model::materials, −1 none
+  int material = -1;  // index into io::Model::materials, −1 none
   std::uint32_t first_triangle = 0;
   std::uint32_t triangle_count = 0;
-  bool wrinkles = true;        // false: selected out, its vertices have mask 0
+  bool wrinkles = true;  // false: selected out, its vertices have mask 0
   bool has_uv = false;
 };
 
 struct Surface {
   // --- welded vertices, V of them -------------------------------------------------------------------------
-  std::vector<glm::dvec3> bind;                 // what skin moves: Σ α M_k bind (plus morph deltas before)
-  std::vector<glm::dvec3> bind_normal;          // unit; only a fallback where triangles give none
-  std::vector<glm::dvec3> rest;                 // what crush compares with; equals bind unless --rest says otherwise
+  std::vector<glm::dvec3> bind;         // what skin moves: Σ α M_k bind (plus morph deltas before)
+  std::vector<glm::dvec3> bind_normal;  // unit; only a fallback where triangles give none
+  std::vector<glm::dvec3> rest;         // what crush compares with; equals bind unless --rest says otherwise
   std::vector<PaletteInfluences> influences;
   std::size_t target_count = 0;
-  std::vector<glm::vec3> target_deltas;         // [target·V + v], metres in the space of bind
-  Rows<std::uint32_t> neighbours;               // over triangle edges, ascending ids, symmetric, no loops
-  Rows<Corner> corners;                         // triangles around a vertex, ascending triangle id
+  std::vector<glm::vec3> target_deltas;  // [target·V + v], metres in the space of bind
+  Rows<std::uint32_t> neighbours;        // over triangle edges, ascending ids, symmetric, no loops
+  Rows<Corner> corners;                  // triangles around a vertex, ascending triangle id
 
   // --- render vertices and triangles ----------------------------------------------------------------------
   std::vector<RenderVertex> render_vertices;
-  std::vector<std::uint32_t> triangles;         // three render vertex ids each
+  std::vector<std::uint32_t> triangles;  // three render vertex ids each
   std::vector<Part> parts;
 
   std::size_t vertex_count() const { return rest.size(); }
@@ -72,9 +73,10 @@ void build_adjacency(Surface& surface);
 
 // The tangent frames of the rest pose and what crush precomputes from them (wrinkle-passes, "Crush").
 struct RestFrames {
-  std::vector<glm::dvec3> normal, tangent;        // unit, orthogonal; b = n × t
-  std::vector<std::uint32_t> tangent_neighbour;   // the neighbour t points to (its id), the vertex itself if none
-  std::vector<glm::dvec2> edge;                   // v_i per entry of surface.neighbours, in (t, b), metres
+  std::vector<glm::dvec3> normal, tangent;  // unit, orthogonal; b = n × t
+  std::vector<std::uint32_t>
+      tangent_neighbour;         // the neighbour t points to (its id), the vertex itself if none
+  std::vector<glm::dvec2> edge;  // v_i per entry of surface.neighbours, in (t, b), metres
 };
 RestFrames rest_frames(const Surface& surface);
 

@@ -1,4 +1,5 @@
-// Welding over a hash grid whose cells are a few tolerances wide, so that nearly every vertex looks into one cell.
+// Welding over a hash grid whose cells are a few tolerances wide, so that nearly every vertex looks into one
+// cell.
 #include "mesh/weld.h"
 
 #include <cmath>
@@ -11,7 +12,8 @@ namespace {
 constexpr float weight_tolerance = 1e-4F;
 
 bool same_influences(const PaletteInfluences& a, const PaletteInfluences& b) {
-  // Entries may stand in different order where weights are equal, so they are looked up, not compared in place.
+  // Entries may stand in different order where weights are equal, so they are looked up, not compared in
+  // place.
   const auto weight_in = [](const PaletteInfluences& influences, std::uint32_t entry) {
     float sum = 0;
     for (std::size_t i = 0; i < influences.entry.size(); ++i)
@@ -19,8 +21,10 @@ bool same_influences(const PaletteInfluences& a, const PaletteInfluences& b) {
     return sum;
   };
   for (std::size_t i = 0; i < a.entry.size(); ++i) {
-    if (a.weight[i] > 0 && std::abs(weight_in(a, a.entry[i]) - weight_in(b, a.entry[i])) > weight_tolerance) return false;
-    if (b.weight[i] > 0 && std::abs(weight_in(a, b.entry[i]) - weight_in(b, b.entry[i])) > weight_tolerance) return false;
+    if (a.weight[i] > 0 && std::abs(weight_in(a, a.entry[i]) - weight_in(b, a.entry[i])) > weight_tolerance)
+      return false;
+    if (b.weight[i] > 0 && std::abs(weight_in(a, b.entry[i]) - weight_in(b, b.entry[i])) > weight_tolerance)
+      return false;
   }
   return true;
 }
@@ -53,7 +57,8 @@ double weld_tolerance(const std::vector<glm::dvec3>& positions) {
   return 1e-6 * glm::length(high - low);
 }
 
-Weld weld(const WeldInput& input, double tolerance) {
+Weld weld(const WeldInput& input, double tolerance,
+          const std::function<bool(std::uint32_t, std::uint32_t)>& also_same) {
   const std::size_t count = input.positions.size();
   // Cells count from the first vertex, so that a small model far from the origin does not overflow them.
   const glm::dvec3 origin = count == 0 ? glm::dvec3{0} : input.positions.front();
@@ -62,10 +67,10 @@ Weld weld(const WeldInput& input, double tolerance) {
     if (glm::distance(input.positions[a], input.positions[b]) > tolerance) return false;
     if (!same_influences(input.influences[a], input.influences[b])) return false;
     for (std::size_t t = 0; t < input.target_count; ++t)
-      if (glm::distance(glm::dvec3(input.target_deltas[t * count + a]), glm::dvec3(input.target_deltas[t * count + b])) >
-          tolerance)
+      if (glm::distance(glm::dvec3(input.target_deltas[t * count + a]),
+                        glm::dvec3(input.target_deltas[t * count + b])) > tolerance)
         return false;
-    return true;
+    return !also_same || also_same(a, static_cast<std::uint32_t>(b));
   };
 
   Weld result;

@@ -13,44 +13,46 @@ namespace plisse {
 
 // Everything about one moment that the skin pass needs. Two equal poses compare equal bit for bit.
 struct Pose {
-  std::vector<glm::dmat4> palette;         // Surface::bind → posed, metres of the world
-  std::vector<double> morph_weights;       // one per target of the surface
-  std::vector<glm::dvec3> cache;           // posed positions of the welded vertices, in place of the above; or empty
+  std::vector<glm::dmat4> palette;    // Surface::bind → posed, metres of the world
+  std::vector<double> morph_weights;  // one per target of the surface
+  std::vector<glm::dvec3> cache;  // posed positions of the welded vertices, in place of the above; or empty
   bool operator==(const Pose&) const = default;
 };
 
 // Frame n (from 1) stands at (n−1)/fps seconds from the clip's start.
 struct Timeline {
   double frames_per_second = 24;
-  double duration = 0;      // seconds
-  int frame_count = 1;      // ⌊duration·fps + 1e-3⌋ + 1
+  double duration = 0;  // seconds
+  int frame_count = 1;  // ⌊duration·fps + 1e-3⌋ + 1
   double time(int frame) const { return (frame - 1) / frames_per_second; }
 };
 
 struct AnimationChoice {
-  std::string clip;                 // name or index; empty: the first clip
-  double frames_per_second = 0;     // 0: 24 (a vertex cache keeps its own rate)
-  std::string rest = "auto";        // auto | bind | frame:N | path of a model with the same vertices
+  std::string clip;              // name or index; empty: the first clip
+  double frames_per_second = 0;  // 0: 24 (a vertex cache keeps its own rate)
+  std::string rest = "auto";     // auto | bind | frame:N | path of a model with the same vertices
   bool loop = false;
 };
 
 class Animation {
  public:
-  // Welds, selects the clip, finds the rest pose. Errors (exit 2): unknown clip (names the clips there are), a rest
-  // file whose vertices do not match, no triangles.
+  // Welds, selects the clip, finds the rest pose. Errors (exit 2): unknown clip (names the clips there are),
+  // a rest file whose vertices do not match, no triangles.
   Animation(const io::Model& model, const AnimationChoice& choice);
   ~Animation();
 
   const Surface& surface() const;
-  Surface& surface();                     // parts may be switched off by the selection
+  Surface& surface();  // parts may be switched off by the selection
   const Timeline& timeline() const;
-  const std::string& clip_name() const;   // "" where the model has none
-  // The pose at a frame. A non-finite entry holds its last finite value of the frames asked before (frames are asked
-  // in order) and warns once.
+  const std::string& clip_name() const;  // "" where the model has none
+  // The pose at a frame. A non-finite entry holds its last finite value of the frames asked before (frames
+  // are asked in order) and warns once.
   Pose pose(int frame);
   // World matrix of a model's node at a frame (cameras).
   glm::dmat4 node_matrix(int node, int frame) const;
-  struct Bounds { glm::dvec3 low, high; };
+  struct Bounds {
+    glm::dvec3 low, high;
+  };
   // Over all frames of the clip (sampled for long clips and large meshes; deterministic).
   Bounds bounds() const;
 
@@ -59,7 +61,8 @@ class Animation {
   std::unique_ptr<Data> data_;
 };
 
-// Positions of the welded vertices in a pose, in double precision on the CPU: Σ αₖ Mₖ (bind + Σ wₜ δₜ).
-std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose);
+// Positions of the welded vertices in a pose, in double precision on the CPU: Σ αₖ Mₖ (bind + Σ wₜ δₜ). A
+// stride of n gives every n-th vertex only.
+std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::size_t stride = 1);
 
 }  // namespace plisse

@@ -1,0 +1,422 @@
+// A model in time: welded surface, rest pose, and the pose of every frame (see animation.h).
+#include "scene/animation.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "config/suggest.h"
+#include "io/import.h"
+#include "mesh/frames.h"
+#include "mesh/weld.h"
+#include "scene/instances.h"
+#include "scene/rig.h"
+
+namespace plisse {
+namespace {
+
+bool finite(double value) {
+  return std::isfinite(value);
+}
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool finite(const glm::dmat4& m) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(m[column][row])) return false;
+  return true;
+}
+
+// Index of the chosen clip, −1 where the model has none and none was asked for.
+int choose_clip(const io::Model& model, const std::string& choice) {
+  if (choice.empty()) return model.clips.empty() ? -1 : 0;
+  std::vector<std::string> names;
+  for (const io::Clip& clip : model.clips) names.push_back(clip.name);
+  const auto named = std::find(names.begin(), names.end(), choice);
+  if (named != names.end()) return static_cast<int>(named - names.begin());
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+  if (error == std::errc{} && end == choice.data() + choice.size() && index < names.size())
+    return static_cast<int>(index);
+  if (names.empty())
+    throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but the model has no clips",
+                                                 model.path.string(), choice));
+  const std::string near = nearest(choice, names);
+  std::stable_partition(names.begin(), names.end(), [&](const std::string& name) { return name == near; });
+  throw Error(ExitCode::bad_input, fmt::format("{}: no clip '{}'; it has, by name or index from 0: {}",
+                                               model.path.string(), choice, fmt::join(names, ", ")));
+}
+
+Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames_per_second) {
+  Timeline timeline;
+  if (!model.cache.frames.empty()) {
+    timeline.frames_per_second = frames_per_second > 0 ? frames_per_second : model.cache.frames_per_second;
+    timeline.frame_count = static_cast<int>(model.cache.frames.size());
+    timeline.duration = (timeline.frame_count - 1) / timeline.frames_per_second;
+    return timeline;
+  }
+  if (frames_per_second > 0) timeline.frames_per_second = frames_per_second;
+  if (clip == nullptr) return timeline;
+  timeline.duration = clip->duration;
+  // contract.md, "Frames, time, units"; the 1e-3 makes up for durations stored in single precision.
+  const double frames = std::floor(timeline.duration * timeline.frames_per_second + 1e-3) + 1;
+  if (!(frames < 1e9))
+    throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' of {} s has more frames than can be counted",
+                                                 model.path.string(), clip->name, clip->duration));
+  timeline.frame_count = static_cast<int>(frames);
+  return timeline;
+}
+
+// Render vertices that share everything are one: (welded, uv, file normal), by bits.
+struct RenderKey {
+  std::array<std::uint64_t, 5> bits{};
+  bool operator==(const RenderKey&) const = default;
+};
+struct RenderKeyHash {
+  std::size_t operator()(const RenderKey& key) const {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : key.bits)
+      hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL, hash ^= hash >> 31;
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+// Surface with everything but `rest` (which is set to `bind`); `normals` gets each render vertex's file
+// normal in the space of bind, 0 where there is none.
+Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::dvec3>& normals) {
+  Surface surface;
+  const std::size_t welded = weld.representative.size();
+  surface.bind.reserve(welded);
+  surface.influences.reserve(welded);
+  for (const std::uint32_t v : weld.representative) {
+    surface.bind.push_back(from.vertices.positions[v]);
+    surface.influences.push_back(from.vertices.influences[v]);
+  }
+  surface.rest = surface.bind;
+  surface.target_count = from.targets.size();
+  surface.target_deltas.reserve(from.targets.size() * welded);
+  for (std::size_t t = 0; t < from.targets.size(); ++t)
+    for (const std::uint32_t v : weld.representative)
+      surface.target_deltas.push_back(from.vertices.target_deltas[t * from.vertices.positions.size() + v]);
+
+  std::unordered_map<RenderKey, std::uint32_t, RenderKeyHash> known;
+  surface.triangles.reserve(from.triangles.size());
+  for (const std::uint32_t v : from.triangles) {
+    const glm::dvec3 n = from.normals[v];
+    const glm::vec2 uv = from.uvs[v];
+    const RenderKey key{
+        {weld.welded[v],
+         std::uint64_t{std::bit_cast<std::uint32_t>(uv.x)} << 32 | std::bit_cast<std::uint32_t>(uv.y),
+         std::bit_cast<std::uint64_t>(n.x), std::bit_cast<std::uint64_t>(n.y),
+         std::bit_cast<std::uint64_t>(n.z)}};
+    const auto [entry, fresh] =
+        known.try_emplace(key, static_cast<std::uint32_t>(surface.render_vertices.size()));
+    if (fresh) {
+      surface.render_vertices.push_back({weld.welded[v], uv, {0, 1, 0}});
+      normals.push_back(n);
+    }
+    surface.triangles.push_back(entry->second);
+  }
+  surface.parts = from.parts;
+  build_adjacency(surface);
+
+  // Where areas cancel (a sheet modelled twice, back to back) the file's normals decide, or else any
+  // triangle.
+  std::vector<glm::dvec3> file_normal(welded, glm::dvec3{0});
+  for (std::size_t r = 0; r < normals.size(); ++r)
+    file_normal[surface.render_vertices[r].welded] += normals[r];
+  surface.bind_normal.reserve(welded);
+  for (std::size_t v = 0; v < welded; ++v) {
+    glm::dvec3 fallback = file_normal[v];
+    for (std::uint32_t c = surface.corners.offsets[v];
+         c < surface.corners.offsets[v + 1] && glm::length(fallback) < 1e-3; ++c) {
+      const Corner& corner = surface.corners.items[c];
+      const glm::dvec3 area = glm::cross(surface.bind[corner.second] - surface.bind[v],
+                                         surface.bind[corner.third] - surface.bind[v]);
+      if (glm::length(area) > 0) fallback = glm::normalize(area);
+    }
+    fallback = glm::length(fallback) > 0 ? glm::normalize(fallback) : glm::dvec3{0, 1, 0};
+    surface.bind_normal.push_back(area_normal(surface, surface.bind, v, fallback));
+  }
+  return surface;
+}
+
+// The file's normals, given with the bind pose, ride over to the rest pose as components in the tangent
+// frames (docs/passes.md, "Skin"); where the file has none the surface's own stand in.
+void set_render_normals(Surface& surface, const std::vector<glm::dvec3>& normals) {
+  const RestFrames rest = rest_frames(surface);
+  for (std::size_t r = 0; r < normals.size(); ++r) {
+    RenderVertex& vertex = surface.render_vertices[r];
+    const std::size_t v = vertex.welded;
+    glm::dvec3 normal = rest.normal[v];
+    if (glm::dot(normals[r], normals[r]) > 0) {
+      const glm::dvec3 n = surface.bind_normal[v];
+      const glm::dvec3 t = tangent_along(surface.bind[rest.tangent_neighbour[v]] - surface.bind[v], n);
+      const glm::dvec3 b = glm::cross(n, t);
+      normal = surface.rest == surface.bind
+                   ? normals[r]
+                   : glm::dot(normals[r], t) * rest.tangent[v] +
+                         glm::dot(normals[r], b) * glm::cross(rest.normal[v], rest.tangent[v]) +
+                         glm::dot(normals[r], n) * rest.normal[v];
+    }
+    vertex.normal = glm::vec3(glm::normalize(normal));
+  }
+}
+
+}  // namespace
+
+struct Animation::Data {
+  Data(const io::Model& model, const AnimationChoice& choice, const io::Clip* clip)
+      : rig(model, clip),
+        timeline(timeline_of(model, clip, choice.frames_per_second)),
+        path(model.path.string()) {
+    if (clip != nullptr) clip_name = clip->name;
+  }
+
+  Pose evaluate(int frame) const {
+    Pose pose;
+    if (!cache.empty()) {
+      pose.palette.assign(1, glm::dmat4{1});
+      pose.cache = cache[static_cast<std::size_t>(frame - 1)];
+      return pose;
+    }
+    const double time = timeline.time(frame);
+    const std::vector<glm::dmat4> world = rig.world(time);
+    pose.palette.reserve(palette.size());
+    for (const PaletteEntry& entry : palette)
+      pose.palette.push_back(entry.node < 0 ? entry.right
+                                            : world[static_cast<std::size_t>(entry.node)] * entry.right);
+    int node = -1;
+    std::vector<double> weights;
+    for (const MorphSource& source : targets) {
+      if (source.node != node) weights = rig.morph_weights(source.node, time);
+      node = source.node;
+      pose.morph_weights.push_back(weights[source.target]);
+    }
+    return pose;
+  }
+
+  // Replaces what is not finite by what stood there in the last pose.
+  template <typename Entry>
+  void hold(std::vector<Entry>& entries, const std::vector<Entry>& before, int frame,
+            const char* what) const {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (finite(entries[i])) continue;
+      entries[i] = before[i];
+      log::warn_once("non-finite pose " + path,
+                     fmt::format("{}: the pose of frame {} is not finite ({} {}); the last good one is held",
+                                 path, frame, what, i));
+    }
+  }
+
+  void check_frame(int frame) const {
+    if (frame < 1 || frame > timeline.frame_count)
+      throw Error(ExitCode::bad_input, fmt::format("{}: no frame {}; there are frames 1 to {}", path, frame,
+                                                   timeline.frame_count));
+  }
+
+  Rig rig;
+  Timeline timeline;
+  std::string path, clip_name;
+  Surface surface;
+  std::vector<PaletteEntry> palette;
+  std::vector<MorphSource> targets;
+  std::vector<std::vector<glm::dvec3>> cache;  // per frame, welded order
+  Pose last;                                   // finite, whatever the clip holds
+};
+
+namespace {
+
+std::vector<double> frame_times(const Timeline& timeline) {
+  std::vector<double> times(static_cast<std::size_t>(std::min(timeline.frame_count, 1000)));
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = timeline.time(static_cast<int>(i) + 1);
+  return times;
+}
+
+Weld weld_instances(const Instances& instances, const io::VertexCache& cache) {
+  const double tolerance = weld_tolerance(instances.vertices.positions);
+  if (cache.frames.empty()) return weld(instances.vertices, tolerance);
+  // In a cache layers of cloth may touch in the first frame and part later: one vertex is what stays
+  // together.
+  return weld(instances.vertices, tolerance, [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t i = instances.cache_index[a];
+    const std::uint32_t j = instances.cache_index[b];
+    return std::all_of(cache.frames.begin(), cache.frames.end(), [&](const std::vector<glm::dvec3>& frame) {
+      return !(glm::distance(frame[i], frame[j]) > tolerance);
+    });
+  });
+}
+
+// Vertices of another file in the order of this model's, placed in the world.
+std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::filesystem::path& path,
+                                          std::size_t expected) {
+  // OBJ states neither unit nor up axis: it is taken to be in the model's own.
+  io::ImportOptions options;
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".obj") options = {model.metres_per_unit, model.up};
+  const io::Model other = io::import_model(path, options);
+  const Rig rig(other, nullptr);
+  const Instances instances = gather_instances(other, rig, {0.0});
+  if (instances.vertices.positions.size() != expected)
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("{}: the rest pose has {} vertices, the model {} has {}; they must be the same mesh",
+                    path.string(), instances.vertices.positions.size(), model.path.string(), expected));
+  return instances.vertices.positions;
+}
+
+}  // namespace
+
+Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
+  const int clip = model.cache.frames.empty() ? choose_clip(model, choice.clip) : -1;
+  if (!model.cache.frames.empty() && !choice.clip.empty())
+    throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but a sequence has no clips",
+                                                 model.path.string(), choice.clip));
+  data_ = std::make_unique<Data>(model, choice,
+                                 clip < 0 ? nullptr : &model.clips[static_cast<std::size_t>(clip)]);
+  Data& data = *data_;
+
+  Instances instances = gather_instances(model, data.rig, frame_times(data.timeline));
+  if (instances.triangles.empty())
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: no triangles: there is nothing to wrinkle in it", data.path));
+  const Weld weld = weld_instances(instances, model.cache);
+  std::vector<glm::dvec3> normals;
+  data.surface = build_surface(instances, weld, normals);
+  data.palette = std::move(instances.palette);
+  data.targets = std::move(instances.targets);
+  for (const std::vector<glm::dvec3>& frame : model.cache.frames) {
+    std::vector<glm::dvec3>& welded = data.cache.emplace_back();
+    welded.reserve(weld.representative.size());
+    for (const std::uint32_t v : weld.representative) welded.push_back(frame[instances.cache_index[v]]);
+  }
+
+  // The pose that holds until the clip has given a finite one: the bind pose.
+  data.last.palette.assign(data.palette.empty() ? 1 : data.palette.size(), glm::dmat4{1});
+  for (const MorphSource& source : data.targets) data.last.morph_weights.push_back(source.rest_weight);
+  if (!data.cache.empty()) data.last.cache = data.surface.bind;
+
+  Surface& surface = data.surface;
+  constexpr std::string_view frame_prefix = "frame:";
+  if (choice.rest == "auto" || choice.rest == "bind") {
+    Pose rest;
+    rest.palette.assign(data.last.palette.size(), glm::dmat4{1});
+    for (const MorphSource& source : data.targets)
+      rest.morph_weights.push_back(choice.rest == "auto"
+                                       ? source.rest_weight
+                                       : data.rig.default_morph_weights(source.node)[source.target]);
+    if (std::any_of(rest.morph_weights.begin(), rest.morph_weights.end(), [](double w) { return w != 0; }))
+      surface.rest = posed(surface, rest);
+  } else if (choice.rest.starts_with(frame_prefix)) {
+    const std::string number = choice.rest.substr(frame_prefix.size());
+    int frame = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
+    if (error != std::errc{} || end != number.data() + number.size())
+      throw Error(ExitCode::bad_input,
+                  fmt::format("rest pose '{}': expected auto, bind, frame:N or a file", choice.rest));
+    data.check_frame(frame);
+    Pose rest = data.evaluate(frame);
+    data.hold(rest.palette, data.last.palette, frame, "matrix");
+    data.hold(rest.morph_weights, data.last.morph_weights, frame, "morph weight");
+    data.hold(rest.cache, data.last.cache, frame, "vertex");
+    surface.rest = posed(surface, rest);
+  } else {
+    const std::vector<glm::dvec3> positions =
+        positions_of_file(model, choice.rest, instances.vertices.positions.size());
+    for (std::size_t v = 0; v < surface.rest.size(); ++v) surface.rest[v] = positions[weld.representative[v]];
+  }
+  set_render_normals(surface, normals);
+}
+
+Animation::~Animation() = default;
+
+const Surface& Animation::surface() const {
+  return data_->surface;
+}
+Surface& Animation::surface() {
+  return data_->surface;
+}
+const Timeline& Animation::timeline() const {
+  return data_->timeline;
+}
+const std::string& Animation::clip_name() const {
+  return data_->clip_name;
+}
+
+Pose Animation::pose(int frame) {
+  data_->check_frame(frame);
+  Pose pose = data_->evaluate(frame);
+  data_->hold(pose.palette, data_->last.palette, frame, "matrix");
+  data_->hold(pose.morph_weights, data_->last.morph_weights, frame, "morph weight");
+  data_->hold(pose.cache, data_->last.cache, frame, "vertex");
+  data_->last = pose;
+  return pose;
+}
+
+glm::dmat4 Animation::node_matrix(int node, int frame) const {
+  const std::vector<glm::dmat4> world = data_->rig.world(data_->timeline.time(frame));
+  if (node < 0 || static_cast<std::size_t>(node) >= world.size()) return glm::dmat4{1};
+  return world[static_cast<std::size_t>(node)];
+}
+
+Animation::Bounds Animation::bounds() const {
+  // Enough for a camera's fit; its margin covers what lies between the samples.
+  constexpr int most_frames = 200;
+  constexpr std::size_t most_vertices = 5000;
+  const Surface& surface = data_->surface;
+  const int frames = data_->timeline.frame_count;
+  const int samples = std::min(frames, most_frames);
+  const std::size_t stride = (surface.vertex_count() + most_vertices - 1) / most_vertices;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{glm::dvec3{infinity}, glm::dvec3{-infinity}};
+  for (int s = 0; s < samples; ++s) {
+    const int frame = samples == 1 ? 1 : 1 + static_cast<int>(std::int64_t{s} * (frames - 1) / (samples - 1));
+    for (const glm::dvec3& position : posed(surface, data_->evaluate(frame), stride)) {
+      if (!finite(position)) continue;
+      bounds.low = glm::min(bounds.low, position);
+      bounds.high = glm::max(bounds.high, position);
+    }
+  }
+  if (bounds.low.x > bounds.high.x)
+    for (const glm::dvec3& position : surface.rest) {
+      bounds.low = glm::min(bounds.low, position);
+      bounds.high = glm::max(bounds.high, position);
+    }
+  return bounds;
+}
+
+std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::size_t stride) {
+  std::vector<glm::dvec3> result;
+  const std::size_t count = surface.vertex_count();
+  result.reserve(count / stride + 1);
+  for (std::size_t v = 0; v < count; v += stride) {
+    if (!pose.cache.empty()) {
+      result.push_back(pose.cache[v]);
+      continue;
+    }
+    glm::dvec3 bind = surface.bind[v];
+    for (std::size_t t = 0; t < surface.target_count; ++t)
+      bind += pose.morph_weights[t] * glm::dvec3(surface.target_deltas[t * count + v]);
+    const PaletteInfluences& influences = surface.influences[v];
+    glm::dvec3 sum{0};
+    for (std::size_t i = 0; i < influences.entry.size(); ++i)
+      if (influences.weight[i] > 0)
+        sum += static_cast<double>(influences.weight[i]) *
+               glm::dvec3(pose.palette[influences.entry[i]] * glm::dvec4(bind, 1));
+    result.push_back(sum);
+  }
+  return result;
+}
+
+}  // namespace plisse

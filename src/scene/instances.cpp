@@ -1,0 +1,304 @@
+// Gathering the instances of a model (see instances.h).
+//
+// A skinned mesh has no place of its own: bone b puts a vertex x at world(b)·offset_b·x = G_b·x. Where the
+// nodes stand as they did at bind time all G_b are equal and A = G maps the mesh into the world. Where they
+// do not, the G_b differ by motions, but bones rarely change size: the stretch U = √(GᵀG) is theirs in
+// common. So A takes its stretch from the bone whose U is nearest to all others' (weighted by how much of the
+// skin it moves), turn and place from the bone nearest the root. Armatures scaled by 0.01 or 100, and meshes
+// scaled along one axis, then rest uncompressed.
+#include "scene/instances.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/log.h"
+
+namespace plisse {
+namespace {
+
+// A matrix whose volume is this small against its size is taken as singular.
+constexpr double singular = 1e-9;
+
+bool invertible(const glm::dmat4& m) {
+  const glm::dmat3 linear(m);
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis) size = std::max(size, glm::length(linear[axis]));
+  return size > 0 && std::isfinite(size) &&
+         std::abs(glm::determinant(linear)) > singular * size * size * size;
+}
+
+Eigen::Matrix3d eigen(const glm::dmat3& m) {
+  return Eigen::Map<const Eigen::Matrix3d>(&m[0][0]);
+}
+glm::dmat3 glm3(const Eigen::Matrix3d& m) {
+  glm::dmat3 result;
+  Eigen::Map<Eigen::Matrix3d> columns(&result[0][0]);
+  columns = m;
+  return result;
+}
+
+// U of the polar decomposition M = R·U.
+Eigen::Matrix3d stretch_of(const Eigen::Matrix3d& m) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.transpose() * m).operatorSqrt();
+}
+
+// The matrix A of a skinned mesh (head of this file); nothing where no bone gives one.
+std::optional<glm::dmat4> bind_matrix(const io::Mesh& mesh, const std::vector<glm::dmat4>& world) {
+  struct Candidate {
+    glm::dmat4 matrix;
+    Eigen::Matrix3d stretch;
+    double share;
+    int node;
+  };
+  std::vector<double> shares(mesh.bones.size(), 0);
+  for (const io::Influences& influences : mesh.influences)
+    for (std::size_t i = 0; i < influences.bone.size(); ++i)
+      if (influences.weight[i] > 0) shares[influences.bone[i]] += static_cast<double>(influences.weight[i]);
+  std::vector<Candidate> candidates;
+  for (std::size_t b = 0; b < mesh.bones.size(); ++b) {
+    const glm::dmat4 matrix = world[static_cast<std::size_t>(mesh.bones[b].node)] * mesh.bones[b].offset;
+    if (shares[b] > 0 && invertible(matrix))
+      candidates.push_back({matrix, stretch_of(eigen(glm::dmat3(matrix))), shares[b], mesh.bones[b].node});
+  }
+  if (candidates.empty()) return std::nullopt;
+
+  const Candidate* typical = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates) {
+    double distance = 0;
+    for (const Candidate& other : candidates)
+      distance += other.share * (other.stretch - candidate.stretch).norm();
+    if (distance < least) {
+      least = distance;
+      typical = &candidate;
+    }
+  }
+  const Candidate& root =
+      *std::min_element(candidates.begin(), candidates.end(),
+                        [](const Candidate& a, const Candidate& b) { return a.node < b.node; });
+  // As it is, where the two agree to the rounding of single-precision files: meshes on one skeleton then
+  // share A to the last bit, and with it their palette entries.
+  if ((root.stretch - typical->stretch).norm() <= 1e-5 * typical->stretch.norm()) return root.matrix;
+  const Eigen::Matrix3d turn = eigen(glm::dmat3(root.matrix)) * root.stretch.inverse();
+  glm::dmat4 result(glm3(turn * typical->stretch));
+  result[3] = root.matrix[3];
+  return result;
+}
+
+class Gatherer {
+ public:
+  Gatherer(const io::Model& model, const Rig& rig, const std::vector<double>& times)
+      : model_(model),
+        rig_(rig),
+        times_(times),
+        default_(rig.world_at_default()),
+        first_(rig.world(times.front())) {
+    std::uint32_t offset = 0;
+    for (const io::Mesh& mesh : model.meshes) {
+      cache_offsets_.push_back(offset);
+      offset += static_cast<std::uint32_t>(mesh.positions.size());
+    }
+  }
+
+  Instances run() {
+    const bool cached = !model_.cache.frames.empty();
+    if (cached) result_.palette.push_back({});
+    for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
+      const io::Node& node = model_.nodes[n];
+      if (node.meshes.empty()) continue;
+      const std::size_t first_target = result_.targets.size();
+      if (!cached) add_targets(static_cast<int>(n));
+      for (const int id : node.meshes) {
+        const io::Mesh& mesh = model_.meshes[static_cast<std::size_t>(id)];
+        if (mesh.triangles.empty()) continue;
+        placed_ = cached               ? Placed{glm::dmat4{1}, {0}}
+                  : mesh.bones.empty() ? place_rigid(static_cast<int>(n))
+                                       : place_skin(mesh);
+        add_vertices(mesh, static_cast<std::size_t>(id), cached, first_target);
+        add_triangles(mesh, node);
+      }
+    }
+    spread_deltas();
+    return std::move(result_);
+  }
+
+ private:
+  // Where an instance comes to lie: mesh → bind, and the palette entry of each bone (one where rigid).
+  struct Placed {
+    glm::dmat4 matrix{1};
+    std::vector<std::uint32_t> entries;
+  };
+
+  // The entry with this node and matrix, old or new. Equal up to the rounding of single-precision files.
+  std::uint32_t entry(int node, const glm::dmat4& right) {
+    const auto same = [&](const PaletteEntry& known) {
+      if (known.node != node) return false;
+      double size = 0, place = 0, difference = 0, shift = 0;
+      for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r) {
+          (c < 3 ? size : place) = std::max(c < 3 ? size : place, std::abs(right[c][r]));
+          (c < 3 ? difference : shift) =
+              std::max(c < 3 ? difference : shift, std::abs(right[c][r] - known.right[c][r]));
+        }
+      return difference <= 1e-6 * size && shift <= 1e-6 * place;
+    };
+    const auto known = std::find_if(result_.palette.begin(), result_.palette.end(), same);
+    if (known != result_.palette.end()) return static_cast<std::uint32_t>(known - result_.palette.begin());
+    result_.palette.push_back({node, right});
+    return static_cast<std::uint32_t>(result_.palette.size()) - 1;
+  }
+
+  Placed place_skin(const io::Mesh& mesh) {
+    Placed placed;
+    if (const auto matrix = bind_matrix(mesh, default_))
+      placed.matrix = *matrix;
+    else
+      log::warn(fmt::format(
+          "{}: no bone of mesh '{}' has a matrix that can be inverted; its size at rest is a guess",
+          model_.path.string(), mesh.name));
+    const glm::dmat4 inverse = glm::inverse(placed.matrix);
+    std::vector<bool> used(mesh.bones.size(), false);
+    for (const io::Influences& influences : mesh.influences)
+      for (std::size_t i = 0; i < influences.bone.size(); ++i)
+        if (influences.weight[i] > 0) used[influences.bone[i]] = true;
+    placed.entries.assign(mesh.bones.size(), 0);
+    for (std::size_t b = 0; b < mesh.bones.size(); ++b)
+      if (used[b]) placed.entries[b] = entry(mesh.bones[b].node, mesh.bones[b].offset * inverse);
+    return placed;
+  }
+
+  // Only the moving ancestor's motion since the first frame counts, so that neighbours under one of them can
+  // weld.
+  Placed place_rigid(int node) {
+    const int moving = rig_.moving_ancestor(node);
+    if (moving < 0) return {first_[static_cast<std::size_t>(node)], {entry(-1, glm::dmat4{1})}};
+    const auto place = [&](const std::vector<glm::dmat4>& world) -> std::optional<Placed> {
+      if (!invertible(world[static_cast<std::size_t>(node)]) ||
+          !invertible(world[static_cast<std::size_t>(moving)]))
+        return std::nullopt;
+      return Placed{world[static_cast<std::size_t>(node)],
+                    {entry(moving, glm::inverse(world[static_cast<std::size_t>(moving)]))}};
+    };
+    if (auto placed = place(first_)) return *placed;
+    // It starts flat or invisible (scale 0): it rests as it first appears.
+    for (const double time : times_)
+      if (auto placed = place(rig_.world(time))) return *placed;
+    if (auto placed = place(default_)) return *placed;
+    log::warn(fmt::format("{}: node '{}' is flat in every frame; it rests in its own coordinates",
+                          model_.path.string(), model_.nodes[static_cast<std::size_t>(node)].name));
+    return {glm::dmat4{1}, {entry(node, glm::dmat4{1})}};
+  }
+
+  // Meshes under one node share its weights (a body split by material), so they share the targets as well.
+  void add_targets(int node) {
+    const std::size_t count = rig_.default_morph_weights(node).size();
+    if (count == 0) return;
+    const auto& meshes = model_.nodes[static_cast<std::size_t>(node)].meshes;
+    const bool skinned = std::any_of(meshes.begin(), meshes.end(), [&](int id) {
+      return !model_.meshes[static_cast<std::size_t>(id)].bones.empty();
+    });
+    const std::vector<double> weights =
+        skinned ? rig_.default_morph_weights(node) : rig_.morph_weights(node, times_.front());
+    for (std::size_t t = 0; t < count; ++t)
+      result_.targets.push_back({node, t, std::isfinite(weights[t]) ? weights[t] : 0});
+  }
+
+  void add_vertices(const io::Mesh& mesh, std::size_t id, bool cached, std::size_t first_target) {
+    WeldInput& vertices = result_.vertices;
+    const glm::dmat3 linear(placed_.matrix);
+    // Normals go by the inverse transpose, mirrors included: outside stays outside.
+    const glm::dmat3 for_normals = glm::transpose(glm::inverse(linear));
+    const auto first = static_cast<std::uint32_t>(vertices.positions.size());
+    std::vector<std::uint32_t>& ids = ids_;
+    ids.assign(mesh.positions.size(), std::numeric_limits<std::uint32_t>::max());
+    // Vertices that no triangle uses would be points of their own in every pass.
+    for (const std::uint32_t v : mesh.triangles) ids[v] = 0;
+    std::uint32_t next = first;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      if (ids[v] != 0) continue;
+      ids[v] = next++;
+      vertices.positions.emplace_back(placed_.matrix * glm::dvec4(mesh.positions[v], 1));
+      glm::dvec3 normal{0};
+      if (!mesh.normals.empty()) normal = for_normals * glm::dvec3(mesh.normals[v]);
+      const double length = glm::length(normal);
+      result_.normals.push_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3{0});
+      result_.uvs.push_back(mesh.uvs.empty() ? glm::vec2{0} : mesh.uvs[v]);
+      result_.cache_index.push_back(cache_offsets_[id] + static_cast<std::uint32_t>(v));
+      vertices.influences.push_back(influences_of(mesh, v, cached));
+    }
+    if (!cached && !mesh.targets.empty()) deltas_.push_back({&mesh, ids, linear, first_target});
+  }
+
+  PaletteInfluences influences_of(const io::Mesh& mesh, std::size_t vertex, bool cached) const {
+    PaletteInfluences result;
+    if (cached || mesh.bones.empty()) {
+      result.entry[0] = placed_.entries[0];
+      result.weight[0] = 1;
+      return result;
+    }
+    for (std::size_t i = 0; i < result.entry.size(); ++i) {
+      result.weight[i] = mesh.influences[vertex].weight[i];
+      if (result.weight[i] > 0) result.entry[i] = placed_.entries[mesh.influences[vertex].bone[i]];
+    }
+    return result;
+  }
+
+  void add_triangles(const io::Mesh& mesh, const io::Node& node) {
+    Part part;
+    part.mesh = mesh.name.empty() ? node.name : mesh.name;
+    part.material = mesh.material;
+    if (mesh.material >= 0)
+      part.material_name = model_.materials[static_cast<std::size_t>(mesh.material)].name;
+    part.first_triangle = static_cast<std::uint32_t>(result_.triangles.size() / 3);
+    part.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+    part.has_uv = !mesh.uvs.empty();
+    result_.parts.push_back(std::move(part));
+    const bool mirrored = glm::determinant(glm::dmat3(placed_.matrix)) < 0;
+    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
+      for (const std::size_t corner : {0, mirrored ? 2 : 1, mirrored ? 1 : 2})
+        result_.triangles.push_back(ids_[mesh.triangles[t + corner]]);
+  }
+
+  // Deltas lie target by target over all vertices, so they are laid out once the count is known.
+  void spread_deltas() {
+    const std::size_t count = result_.vertices.positions.size();
+    result_.vertices.target_count = result_.targets.size();
+    result_.vertices.target_deltas.assign(result_.targets.size() * count, glm::vec3{0});
+    for (const Deltas& instance : deltas_)
+      for (std::size_t t = 0; t < instance.mesh->targets.size(); ++t)
+        for (std::size_t v = 0; v < instance.ids.size(); ++v)
+          if (instance.ids[v] != std::numeric_limits<std::uint32_t>::max())
+            result_.vertices.target_deltas[(instance.first_target + t) * count + instance.ids[v]] =
+                instance.linear * glm::dvec3(instance.mesh->targets[t].position_deltas[v]);
+  }
+
+  struct Deltas {
+    const io::Mesh* mesh;
+    std::vector<std::uint32_t> ids;
+    glm::dmat3 linear;
+    std::size_t first_target;
+  };
+
+  const io::Model& model_;
+  const Rig& rig_;
+  const std::vector<double>& times_;
+  const std::vector<glm::dmat4> default_, first_;
+  std::vector<std::uint32_t> cache_offsets_;
+  Instances result_;
+  Placed placed_;
+  std::vector<std::uint32_t> ids_;  // mesh vertex → gathered vertex, of the instance at hand
+  std::vector<Deltas> deltas_;
+};
+
+}  // namespace
+
+Instances gather_instances(const io::Model& model, const Rig& rig, const std::vector<double>& times) {
+  return Gatherer(model, rig, times).run();
+}
+
+}  // namespace plisse
