@@ -174,21 +174,22 @@ TEST(ReferenceRelax, StabilityEndsAtFourThirdsOfThatOnRegularTriangles) {
 }
 
 TEST(ReferenceRelax, DescentGetsStuckWhereThePaperDoes) {
-  // wrinkle-passes.md: .024–.030 turns² as a mean of 32 seeds, from 1/12 of random phases.
+  // wrinkle-passes.md: .024–.030 turns² as a mean of 32 seeds or more, from 1/12 of random phases. One seed's
+  // standard deviation is .0055, so the mean of 128 is known to .0005.
+  constexpr unsigned seeds = 128;
   double before = 0, after = 0;
-  for (unsigned seed = 0; seed < 32; ++seed) {
+  for (unsigned seed = 0; seed < seeds; ++seed) {
     const test::Grid grid = test::grid(12, 0.3, seed);
     WaveField field = squeezed(grid, 2, 100 + seed);
-    before += misfit(grid.topology, field) / 32;
-    relax(grid.topology, field, {.smooth = false, .descent_rounds = 400});
-    after += misfit(grid.topology, field) / 32;
+    before += misfit(grid.topology, field) / seeds;
+    relax(grid.topology, field, {.smooth = false, .descent_rounds = 300});
+    after += misfit(grid.topology, field) / seeds;
     EXPECT_NEAR(parallelism(field, Vector3d::UnitX()), 1, rounding);
   }
-  // 32 seeds of about 770 directed edges, half of them independent: 1/12 ± 5 standard errors of .0745/√12300.
-  EXPECT_NEAR(before, 1.0 / 12, 5 * 0.0745 / std::sqrt(12300));
+  // d² of a uniform d has standard deviation .0745; 385 edges a seed.
+  EXPECT_NEAR(before, 1.0 / 12, 5 * 0.0745 / std::sqrt(385.0 * seeds));
   EXPECT_GT(after, 0.024);
   EXPECT_LT(after, 0.030);
-  RecordProperty("plateau", std::to_string(after));
 }
 
 TEST(ReferenceRelax, SmoothingFindsTheWave) {
