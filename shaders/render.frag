@@ -126,8 +126,14 @@ void main() {
 #ifndef PLAIN
     if (aov == AOV_HEIGHT) colour.rgb = vec3(wrinkle.height);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(wrinkle.amplitude);
-    if (aov == AOV_PHASE) colour.rgb = 2.0 * pi * (tau.x - round(tau.x)) * vec3(1.0);
-    if (aov == AOV_DIRECTION) colour.rgb = heights.w > 0.0 ? normalize(wavenumber_a) : vec3(0.0);
+    // Phase and direction are those of the wave that weighs most here.
+    float most = max(b.x, max(b.y, b.z));
+    bool first = b.x == most, second = !first && b.y == most;
+    float own = first ? tau.x : second ? tau.y : tau.z;
+    vec3 wavenumber = first ? wavenumber_a : second ? wavenumber_b : wavenumber_c;
+    if (aov == AOV_PHASE) colour.rgb = vec3(2.0 * pi * (own - ceil(own - 0.5)));
+    if (aov == AOV_DIRECTION && dot(wavenumber, wavenumber) > 0.0) colour.rgb = normalize(wavenumber);
+    if (aov == AOV_TENSION) colour.rgb = vec3(tension);
 #endif
 #else
     float alpha = has_alpha ? albedo.a : 1.0;

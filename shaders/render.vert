@@ -11,6 +11,10 @@ struct RenderVertex {
 layout(std430, binding = 4) readonly buffer RenderVertices { RenderVertex render_vertices[]; };
 layout(std430, binding = 6) readonly buffer Triangles { uint triangles[]; };
 
+#ifdef AOV
+layout(std430, binding = 11) readonly buffer States { vec4 states[]; };  // k; 1 − r; g
+#endif
+
 #define INTERFACE out
 #define FLAT flat out
 #include "common/render_io.glsl"
@@ -37,6 +41,9 @@ void main() {
     x = p[corner];
     uv = uvs[corner];
     gl_Position = view_projection * vec4(x, 1.0);
+#ifdef AOV
+    tension = states[id[corner]].z;
+#endif
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
     plane = dot(area, n[0] + n[1] + n[2]) < 0.0 ? -area : area;

@@ -38,12 +38,11 @@ void main() {
     }
     positions[v] = vec4(dot(row0, vec4(x, 1.0)), dot(row1, vec4(x, 1.0)), dot(row2, vec4(x, 1.0)), 1.0);
 
-    // The cofactor matrix is det · inverse transpose; it needs no inverse, so it stays finite where det = 0. Its rows are
-    // the cross products of the matrix's rows.
+    // The cofactor matrix is det · inverse transpose; it needs no inverse, so it stays finite where det = 0, and it turns
+    // over under a mirror as the triangles do. Its rows are the cross products of the matrix's rows.
     vec3 n = bind_normals[v].xyz;
     vec3 cofactor0 = cross(row1.xyz, row2.xyz), cofactor1 = cross(row2.xyz, row0.xyz), cofactor2 = cross(row0.xyz, row1.xyz);
     vec3 turned = vec3(dot(cofactor0, n), dot(cofactor1, n), dot(cofactor2, n));
-    if (dot(row0.xyz, cofactor0) < 0.0) turned = -turned;
     float size = length(turned);
     frames[v].normal = vec4(size > 0.0 ? turned / size : n, 0.0);
 }

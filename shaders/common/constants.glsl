@@ -3,5 +3,6 @@
 #define AOV_AMPLITUDE 2
 #define AOV_PHASE 3
 #define AOV_DIRECTION 4
+#define AOV_TENSION 5
 #define AOV_DEPTH 6
 const float pi = 3.14159265358979;

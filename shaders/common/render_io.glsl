@@ -7,6 +7,9 @@ INTERFACE Varyings {
     vec3 tau;        // the three waves' phases here, turns; linear over the triangle
     vec2 weights;    // barycentric β, γ
 #endif
+#ifdef AOV
+    float tension;   // 1 − r
+#endif
 };
 #ifndef PLAIN
 FLAT vec3 wavenumber_a;

@@ -8,16 +8,10 @@
 
 #include "gpu/buffer.h"
 #include "mesh/surface.h"
+#include "mesh/vertex_waves.h"
 #include "passes/model_units.h"
 
 namespace plisse::passes {
-
-// What the wrinkles of each welded vertex are like; all of length V.
-struct VertexWaves {
-  std::vector<double> wavelength;   // W, metres of the rest pose, > 0
-  std::vector<double> mask;         // 0…1 times the strength
-  std::vector<double> phase_noise;  // radians, added when the wave is drawn
-};
 
 struct SurfaceBuffers {
   // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.

@@ -1,0 +1,30 @@
+// Arbitrary output variables: one quantity of the surface a picture, as a float EXR and as a PNG to look at.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/target.h"
+#include "passes/render.h"
+#include "pipeline/loaded_scene.h"
+
+namespace plisse::pipeline {
+
+// height, normal, amplitude, phase, direction, tension, depth. Throws Error(bad_input) for another name.
+std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names);
+
+// Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], or 1 − r; 0 where nothing is
+// seen) and `name.height.png` (the same, brought into 0…1).
+class AovWriter {
+ public:
+  AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::vector<passes::Aov> aovs);
+  void write(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& frame_path);
+
+ private:
+  const LoadedScene& scene_;
+  passes::RenderPass& pass_;
+  std::vector<passes::Aov> aovs_;
+  gpu::Target target_;
+};
+
+}  // namespace plisse::pipeline

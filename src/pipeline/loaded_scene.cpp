@@ -1,0 +1,293 @@
+#include "pipeline/loaded_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <span>
+
+#include "base/colour.h"
+#include "base/error.h"
+#include "base/version.h"
+#include "config/suggest.h"
+#include "scene/wrinkles.h"
+
+namespace plisse::pipeline {
+namespace {
+
+AnimationChoice choice_of(const ModelSettings& model) {
+  return {model.clip, model.frames_per_second, model.rest, model.loop};
+}
+
+io::ImportOptions options_of(const ModelSettings& model) {
+  io::ImportOptions options;
+  if (model.metres_per_unit > 0) options.metres_per_unit = model.metres_per_unit;
+  options.up = model.up;
+  return options;
+}
+
+glm::dvec3 linear(const glm::vec3& srgb) {
+  return {srgb_to_linear(static_cast<double>(srgb.r)), srgb_to_linear(static_cast<double>(srgb.g)), srgb_to_linear(static_cast<double>(srgb.b))};
+}
+
+Animation::Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+  Animation::Bounds bounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+  for (const auto& x : points) {
+    bounds.low = glm::min(bounds.low, x);
+    bounds.high = glm::max(bounds.high, x);
+  }
+  return bounds;
+}
+
+template <typename Item>
+void add_items(Hash& hash, const std::vector<Item>& items) {
+  static_assert(std::is_trivially_copyable_v<Item>);
+  hash.add(items.size());
+  hash.add_bytes({reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(Item)});
+}
+
+void add(Hash& hash, const glm::dvec3& v) { hash.add(v.x).add(v.y).add(v.z); }
+void add(Hash& hash, const glm::dmat4& m) {
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) hash.add(m[c][r]);
+  }
+}
+
+}  // namespace
+
+LoadedScene::LoadedScene(const SceneSettings& given)
+    : settings(given),
+      model(io::import_model(given.model.path, options_of(given.model))),
+      animation(model, choice_of(given.model)),
+      profile(passes::make_profile(given.wrinkles.profile)) {
+  select_parts(animation.surface(), settings.wrinkles);
+  if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = default_wavelength(surface());
+  rest = rest_frames(surface());
+  waves = vertex_waves(surface(), settings.wrinkles, wavelength());
+  preroll_ = settings.model.loop ? animation.timeline().frame_count : 0;
+
+  bounds_ = animation.bounds();
+  const auto rest_bounds = bounds_of(surface().rest);
+  units.metres = passes::ModelUnits::unit_for(
+      std::max(glm::distance(bounds_.low, bounds_.high), glm::distance(rest_bounds.low, rest_bounds.high)));
+  units.world_centre = 0.5 * (bounds_.low + bounds_.high);
+  units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
+
+  Hash& hash = state_base_;
+  hash.add(version).add(animation.timeline().frames_per_second).add(settings.model.loop);
+  add_items(hash, surface().bind);
+  add_items(hash, surface().rest);
+  add_items(hash, surface().influences);
+  add_items(hash, surface().target_deltas);
+  add_items(hash, surface().neighbours.offsets);
+  add_items(hash, surface().neighbours.items);
+  add_items(hash, waves.wavelength);
+  add_items(hash, waves.mask);
+  const auto& relax = settings.relax;
+  hash.add(relax.mode).add(relax.rounds).add(relax.epsilon).add(relax.interval).add(relax.onset_rounds).add(relax.smoothing_rounds);
+  hash.add(settings.wrinkles.dead_zone).add(settings.wrinkles.seed);
+  add(hash, units.world_centre);
+  hash.add(units.metres);
+}
+
+passes::Look LoadedScene::look() const {
+  const auto& s = settings.shading;
+  passes::Look look;
+  look.smooth_blend = s.blend == Blend::smooth;
+  look.full_gradient = s.gradient == Gradient::full;
+  look.shadows = settings.light.shadows;
+  look.ground = settings.output.ground;
+  look.wireframe = s.wireframe;
+  look.roughness = s.roughness;
+  look.cavity = s.cavity;
+  look.parallax = s.parallax;
+  look.sheen = s.sheen;
+  look.background = linear(settings.output.background);
+  look.transparent = settings.output.transparent;
+  return look;
+}
+
+std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
+  std::vector<passes::DrawPart> parts;
+  for (const Part& part : surface().parts) {
+    passes::DrawPart draw;
+    draw.first_triangle = part.first_triangle;
+    draw.triangle_count = part.triangle_count;
+    // A surface without a look of its own gets the scene's.
+    const glm::vec3 plain(linear(settings.shading.colour));
+    draw.base_colour = glm::vec4(plain, 1);
+    if (part.material >= 0) {
+      const io::Material& material = model.materials[static_cast<std::size_t>(part.material)];
+      const bool textured = material.base_colour_texture >= 0 && part.has_uv;
+      draw.two_sided = material.two_sided;
+      draw.texture = textured ? material.base_colour_texture : -1;
+      const bool white = glm::vec3(material.base_colour) == glm::vec3(1);
+      if (textured || !white) draw.base_colour = material.base_colour;
+      else draw.base_colour.a = material.base_colour.a;
+      draw.has_alpha = material.alpha == io::Material::Alpha::blend;
+      draw.alpha_cutoff = material.alpha == io::Material::Alpha::mask ? material.alpha_cutoff : 0.0F;
+    }
+    parts.push_back(draw);
+  }
+  return parts;
+}
+
+std::vector<std::vector<passes::TextureLevel>> LoadedScene::texture_levels() const {
+  std::vector<std::vector<passes::TextureLevel>> all;
+  for (const auto& texture : model.textures) {
+    all.push_back(passes::mip_levels(texture.image.width, texture.image.height, texture.image.rgba));
+  }
+  return all;
+}
+
+passes::View LoadedScene::view(int frame) const {
+  const CameraSettings& camera = settings.camera;
+  const double aspect = static_cast<double>(settings.output.width) / settings.output.height;
+  const glm::dvec3 up(0, 1, 0), centre = 0.5 * (bounds_.low + bounds_.high);
+  const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
+
+  // The film is 36 mm along the longer side of the picture.
+  const double half_long = 18.0 / camera.focal_length;
+  double tan_x = aspect >= 1 ? half_long : half_long * aspect, tan_y = tan_x / aspect;
+  glm::dvec3 eye, forward;
+  glm::dvec3 camera_up = up;
+  if (!camera.name.empty()) {
+    std::vector<std::string> names;
+    int found = -1;
+    for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+      names.push_back(model.cameras[i].name);
+      if (model.cameras[i].name == camera.name || std::to_string(i) == camera.name) found = static_cast<int>(i);
+    }
+    if (found < 0) {
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: no camera '{}'{}; it has {}", model.path.string(), camera.name, did_you_mean(camera.name, names),
+                              names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
+    }
+    const io::Camera& chosen = model.cameras[static_cast<std::size_t>(found)];
+    const glm::dmat4 place = animation.node_matrix(chosen.node, frame);
+    eye = glm::dvec3(place[3]);
+    forward = glm::normalize(-glm::dvec3(place[2]));
+    camera_up = glm::normalize(glm::dvec3(place[1]));
+    tan_y = std::tan(chosen.vertical_field_of_view / 2);
+    tan_x = tan_y * aspect;
+  } else if (camera.explicit_pose) {
+    eye = camera.eye;
+    forward = glm::normalize(camera.target - camera.eye);
+  } else {
+    const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
+    const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+    forward = -toward;
+    double distance = camera.distance;
+    if (distance <= 0) {
+      // The nearest place from which every corner of the clip's bounds is in the picture.
+      const glm::dvec3 right = glm::normalize(glm::cross(forward, up)), high = glm::cross(right, forward);
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 x((corner & 1) ? bounds_.high.x : bounds_.low.x, (corner & 2) ? bounds_.high.y : bounds_.low.y,
+                           (corner & 4) ? bounds_.high.z : bounds_.low.z);
+        const glm::dvec3 d = x - centre;
+        const double needed = camera.margin * std::max(std::abs(glm::dot(d, right)) / tan_x, std::abs(glm::dot(d, high)) / tan_y);
+        distance = std::max(distance, needed - glm::dot(d, forward));
+      }
+      distance = std::max(distance, 1e-3 * radius);
+    }
+    eye = centre + distance * toward;
+  }
+  if (std::abs(glm::dot(forward, camera_up)) > 0.9999) camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+
+  passes::View view;
+  view.eye = units.world(eye);
+  view.forward = forward;
+  view.up = up;
+  view.bounds_centre = units.world(centre);
+  view.bounds_radius = radius / units.metres;
+  view.floor = units.world(bounds_.low).y;
+  const double distance = glm::distance(view.eye, view.bounds_centre);
+  const double far = distance + (settings.output.ground ? 12 : 1.5) * view.bounds_radius;
+  const double near = std::max(distance - 1.5 * view.bounds_radius, 1e-3 * (distance + view.bounds_radius));
+  view.view_projection = glm::frustum(-tan_x * near, tan_x * near, -tan_y * near, tan_y * near, near, far) *
+                         glm::lookAt(view.eye, view.eye + forward, camera_up);
+
+  // Lights stand relative to the camera, round the up axis.
+  glm::dvec3 back(-forward.x, 0, -forward.z);
+  back = glm::length(back) > 1e-6 ? glm::normalize(back) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 right = glm::cross(up, back);
+  const auto direction = [&](double azimuth, double elevation) {
+    const double a = glm::radians(azimuth), e = glm::radians(elevation);
+    return std::cos(e) * (std::cos(a) * back + std::sin(a) * right) + std::sin(e) * up;
+  };
+  const LightSettings& light = settings.light;
+  const glm::dvec3 key(light.key_colour), fill(light.fill_colour);
+  view.lights[0] = {direction(light.key_azimuth, light.key_elevation), light.key_intensity * key};
+  view.lights[1] = {direction(light.fill_azimuth, light.fill_elevation), light.key_intensity * light.fill_ratio * fill};
+  view.lights[2] = {direction(light.rim_azimuth, light.rim_elevation), light.rim_intensity * glm::dvec3(1)};
+  view.ambient = light.ambient * 0.5 * (fill + glm::dvec3(1));
+  return view;
+}
+
+const Pose& LoadedScene::pose(int step) {
+  extend(step);
+  return poses_.at(static_cast<std::size_t>(step - first_pose_));
+}
+
+void LoadedScene::drop_poses_before(int step) {
+  while (first_pose_ < step && !poses_.empty()) {
+    poses_.pop_front();
+    ++first_pose_;
+  }
+}
+
+void LoadedScene::extend(int step) {
+  while (static_cast<int>(chain_.size()) < step) {
+    const int next = static_cast<int>(chain_.size()) + 1;
+    poses_.push_back(animation.pose(frame_of_step(next)));
+    const Pose& pose = poses_.back();
+    Hash hash = chain_.empty() ? state_base_ : chain_.back();
+    for (const auto& m : pose.palette) add(hash, m);
+    add_items(hash, pose.morph_weights);
+    add_items(hash, pose.cache);
+    chain_.push_back(hash);
+  }
+}
+
+Hash LoadedScene::state_hash(int step) {
+  extend(step);
+  return step == 0 ? state_base_ : chain_[static_cast<std::size_t>(step - 1)];
+}
+
+std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
+  Hash hash = state_hash(step_of_frame(frame));
+  hash.add(driver.hex());
+  add_items(hash, waves.phase_noise);
+  add_items(hash, profile.f);
+  add_items(hash, profile.derivative);
+  for (const auto& vertex : surface().render_vertices) {
+    hash.add(vertex.welded).add(vertex.uv.x).add(vertex.uv.y).add(vertex.normal.x).add(vertex.normal.y).add(vertex.normal.z);
+  }
+  add_items(hash, surface().triangles);
+  for (const auto& part : draw_parts()) {
+    hash.add(part.first_triangle).add(part.triangle_count).add(part.texture).add(part.has_alpha).add(part.alpha_cutoff).add(part.two_sided);
+    for (int i = 0; i < 4; ++i) hash.add(part.base_colour[i]);
+  }
+  for (const auto& texture : model.textures) {
+    hash.add(texture.image.width).add(texture.image.height);
+    hash.add_bytes(texture.image.rgba);
+  }
+  const passes::View at = view(frame);
+  add(hash, at.view_projection);
+  add(hash, at.eye);
+  add(hash, at.ambient);
+  for (const auto& light : at.lights) {
+    add(hash, light.direction);
+    add(hash, light.colour);
+  }
+  const passes::Look l = look();
+  hash.add(l.smooth_blend).add(l.full_gradient).add(l.shadows).add(l.ground).add(l.wireframe).add(l.transparent);
+  hash.add(l.roughness).add(l.cavity).add(l.parallax).add(l.sheen).add(at.floor);
+  add(hash, l.background);
+  hash.add(settings.output.width).add(settings.output.height).add(settings.output.samples);
+  return hash.hex();
+}
+
+}  // namespace plisse::pipeline

@@ -1,0 +1,59 @@
+// A scene on the CPU: model, animation, surface, waves, view; and the fingerprints that name its frames.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "base/hash.h"
+#include "config/settings.h"
+#include "io/import.h"
+#include "mesh/surface.h"
+#include "mesh/vertex_waves.h"
+#include "passes/model_units.h"
+#include "passes/render.h"
+#include "scene/animation.h"
+
+namespace plisse::pipeline {
+
+class LoadedScene {
+ public:
+  // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
+  explicit LoadedScene(const SceneSettings& settings);
+
+  SceneSettings settings;        // wavelength resolved
+  io::Model model;
+  Animation animation;
+  RestFrames rest;
+  VertexWaves waves;
+  passes::ModelUnits units;
+  passes::Profile profile;
+
+  const Surface& surface() const { return animation.surface(); }
+  double wavelength() const { return settings.wrinkles.wavelength; }
+  passes::Look look() const;
+  std::vector<passes::DrawPart> draw_parts() const;
+  std::vector<std::vector<passes::TextureLevel>> texture_levels() const;
+  passes::View view(int frame) const;
+
+  // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
+  int step_of_frame(int frame) const { return preroll_ + frame; }
+  int frame_of_step(int step) const { return step <= preroll_ ? step : step - preroll_; }
+  // The pose of a step, asked in order; a step may be asked again until a later one is dropped.
+  const Pose& pose(int step);
+  void drop_poses_before(int step);
+  // Decides the state after a step: settings of the passes, the surface, and every pose so far.
+  Hash state_hash(int step);
+  // Decides the frame's pixels: the above, materials, camera, light, size.
+  std::string frame_hash(int frame, const Hash& driver);
+
+ private:
+  void extend(int step);
+  int preroll_ = 0;
+  Animation::Bounds bounds_;
+  Hash state_base_;
+  std::deque<Pose> poses_;       // of steps first_pose_, first_pose_ + 1, …
+  int first_pose_ = 1;
+  std::vector<Hash> chain_;      // after each step
+};
+
+}  // namespace plisse::pipeline

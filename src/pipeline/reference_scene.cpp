@@ -1,0 +1,251 @@
+#include "pipeline/reference_scene.h"
+
+#include "base/colour.h"
+
+namespace plisse::pipeline {
+namespace {
+
+using Eigen::Index;
+
+Eigen::Vector3d eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Eigen::Matrix4d eigen(const glm::dmat4& m) {
+  Eigen::Matrix4d result;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) result(row, column) = m[column][row];
+  }
+  return result;
+}
+
+template <typename Function>
+Eigen::Matrix3Xd columns(std::size_t count, Function&& column) {
+  Eigen::Matrix3Xd result(3, static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i) result.col(static_cast<Index>(i)) = eigen(glm::dvec3(column(i)));
+  return result;
+}
+
+Eigen::VectorXd vector(const std::vector<double>& values, double scale = 1) {
+  Eigen::VectorXd result(static_cast<Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) result[static_cast<Index>(i)] = values[i] * scale;
+  return result;
+}
+
+}  // namespace
+
+ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
+  const Surface& surface = scene.surface();
+  const std::size_t count = surface.vertex_count();
+  const auto& units = scene.units;
+  topology.rest = columns(count, [&](std::size_t v) { return units.rest(surface.rest[v]); });
+  topology.neighbours = surface.neighbours;
+  topology.corners = surface.corners;
+  rest_frames.normal = columns(count, [&](std::size_t v) { return scene.rest.normal[v]; });
+  rest_frames.tangent = columns(count, [&](std::size_t v) { return scene.rest.tangent[v]; });
+  tangent_neighbour = scene.rest.tangent_neighbour;
+  skin.bind = columns(count, [&](std::size_t v) { return units.rest(surface.bind[v]); });
+  skin.bind_normal = columns(count, [&](std::size_t v) { return surface.bind_normal[v]; });
+  for (const auto& influences : surface.influences) {
+    reference::Influences converted;
+    for (std::size_t i = 0; i < 8; ++i) {
+      converted.entry[i] = influences.entry[i];
+      converted.weight[i] = static_cast<double>(influences.weight[i]);
+    }
+    skin.influences.push_back(converted);
+  }
+  for (std::size_t t = 0; t < surface.target_count; ++t) {
+    skin.deltas.push_back(columns(count, [&](std::size_t v) {
+      return glm::dvec3(surface.target_deltas[t * count + v]) / units.metres;
+    }));
+  }
+  wavelength = vector(scene.waves.wavelength, 1 / units.metres);
+  mask = vector(scene.waves.mask);
+  phase_noise = vector(scene.waves.phase_noise);
+  initial_phases.resize(static_cast<Index>(count));
+  for (std::size_t v = 0; v < count; ++v) {
+    initial_phases[static_cast<Index>(v)] =
+        static_cast<double>(passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
+  }
+  const auto& settings = scene.settings;
+  crush.dead_zone = settings.wrinkles.dead_zone;
+  crush.smooth = settings.relax.mode == RelaxMode::smooth;
+  relax.smooth = crush.smooth;
+  relax.descent_rounds = settings.relax.rounds;
+  relax.epsilon = settings.relax.epsilon;
+  relax.onset_rounds = settings.relax.onset_rounds;
+  relax.smoothing_rounds = settings.relax.smoothing_rounds;
+}
+
+reference::SkinPose ReferenceScene::pose(const Pose& pose) const {
+  reference::SkinPose result;
+  for (const auto& m : pose.palette) result.palette.push_back(eigen(scene.units.matrix(m)));
+  result.morph_weights = pose.morph_weights;
+  return result;
+}
+
+Eigen::Matrix3Xd ReferenceScene::positions(const Pose& given) const {
+  if (!given.cache.empty()) {
+    return columns(given.cache.size(), [&](std::size_t v) { return scene.units.world(given.cache[v]); });
+  }
+  return reference::skin_positions(skin, pose(given));
+}
+
+reference::Frames ReferenceScene::frames(const Pose& given, const Eigen::Matrix3Xd& positions) const {
+  std::vector<Eigen::Matrix3d> linear(skin.influences.size(), Eigen::Matrix3d::Identity());
+  if (given.cache.empty()) {
+    const auto at = pose(given);
+    for (std::size_t v = 0; v < linear.size(); ++v) {
+      linear[v] = reference::blended_matrix(skin, at, static_cast<Index>(v)).topLeftCorner<3, 3>();
+    }
+  }
+  reference::Frames frames;
+  frames.normal = reference::skin_normals(topology, positions, linear, skin.bind_normal);
+  frames.tangent = reference::skin_tangents(positions, frames.normal, tangent_neighbour);
+  return frames;
+}
+
+reference::WaveField WaveSnapshot::field() const {
+  reference::WaveField field;
+  field.positions = positions;
+  field.wavenumbers.resize(3, positions.cols());
+  for (Index v = 0; v < positions.cols(); ++v) field.wavenumbers.col(v) = frames.basis(v) * wavenumbers.col(v);
+  field.weights = weights;
+  for (const auto& state : states) field.status.push_back(state.status);
+  field.phases = phases;
+  return field;
+}
+
+WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface) {
+  const std::size_t count = surface.vertex_count;
+  const auto positions = surface.positions.read<glm::vec4>(), frames = surface.frames.read<glm::vec4>();
+  const auto waves = surface.waves.read<glm::vec4>(), states = surface.states.read<glm::vec4>();
+  const auto phases = surface.phases.read<glm::vec2>();
+  WaveSnapshot snapshot;
+  snapshot.positions = columns(count, [&](std::size_t v) { return glm::vec3(positions[v]); });
+  snapshot.frames.normal = columns(count, [&](std::size_t v) { return glm::vec3(frames[2 * v]); });
+  snapshot.frames.tangent = columns(count, [&](std::size_t v) { return glm::vec3(frames[2 * v + 1]); });
+  const auto n = static_cast<Index>(count);
+  snapshot.wavenumbers.resize(2, n);
+  for (auto* values : {&snapshot.heights, &snapshot.weights, &snapshot.phases, &snapshot.compression}) values->resize(n);
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto i = static_cast<Index>(v);
+    snapshot.wavenumbers.col(i) = Eigen::Vector2f(waves[v].x, waves[v].y).cast<double>();
+    snapshot.heights[i] = static_cast<double>(waves[v].z);
+    snapshot.weights[i] = static_cast<double>(waves[v].w);
+    snapshot.phases[i] = static_cast<double>(phases[v].x);
+    snapshot.compression[i] = static_cast<double>(states[v].z);
+    snapshot.states.push_back({Eigen::Vector2f(states[v].x, states[v].y).cast<double>(),
+                               static_cast<reference::Status>(static_cast<int>(phases[v].y))});
+  }
+  return snapshot;
+}
+
+std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
+  std::vector<reference::Texture> textures;
+  for (const auto& levels : scene.texture_levels()) {
+    reference::Texture texture;
+    for (const auto& level : levels) {
+      reference::TextureLevel converted{level.width, level.height, {}};
+      converted.texels.resize(static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+      for (int y = 0; y < level.height; ++y) {
+        for (int x = 0; x < level.width; ++x) {
+          const auto* texel = &level.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x))];
+          Eigen::Vector4f value;
+          for (int c = 0; c < 3; ++c) value[c] = static_cast<float>(srgb_to_linear(texel[c] / 255.0));
+          value[3] = static_cast<float>(texel[3] / 255.0);
+          // The reference's row 0 is at v = 0, the bottom of the picture.
+          converted.texels[static_cast<std::size_t>(level.height - 1 - y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)] = value;
+        }
+      }
+      texture.levels.push_back(std::move(converted));
+    }
+    textures.push_back(std::move(texture));
+  }
+  return textures;
+}
+
+reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot, const passes::View& view,
+                               const std::vector<reference::Texture>& textures) {
+  const Surface& surface = scene.scene.surface();
+  reference::Scene result;
+  const auto field = snapshot.field();
+  const auto parts = scene.scene.draw_parts();
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& part = parts[p];
+    reference::Material material;
+    material.base_colour = eigen(glm::dvec3(part.base_colour));
+    material.base_alpha = static_cast<double>(part.base_colour.a);
+    material.texture = part.texture;
+    material.alpha_cutoff = part.alpha_cutoff > 0 ? static_cast<double>(part.alpha_cutoff) : -1;
+    material.two_sided = part.two_sided;
+    result.materials.push_back(material);
+    for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      reference::Triangle triangle;
+      triangle.material = static_cast<int>(p);
+      for (int c = 0; c < 3; ++c) {
+        const RenderVertex& vertex = surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
+        const auto v = static_cast<Index>(vertex.welded);
+        triangle.welded[static_cast<std::size_t>(c)] = vertex.welded;
+        triangle.waves.corners.col(c) = snapshot.positions.col(v);
+        triangle.waves.wavenumbers.col(c) = field.wavenumbers.col(v);
+        triangle.waves.heights[c] = snapshot.heights[v];
+        triangle.waves.phases[c] = snapshot.phases[v] + scene.phase_noise[v];
+        triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
+        // The rest normal's components ride in the posed frame.
+        const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
+        triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +
+                                  snapshot.frames.normal.col(v) * scene.rest_frames.normal.col(v).dot(m);
+      }
+      result.triangles.push_back(triangle);
+    }
+  }
+  result.textures = textures;
+  result.camera.view_projection = eigen(view.view_projection);
+  result.camera.eye = eigen(view.eye);
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.lighting.lights[i] = {eigen(view.lights[i].direction), eigen(view.lights[i].colour)};
+  }
+  result.lighting.ambient = eigen(view.ambient);
+  result.lighting.up = eigen(view.up);
+  const auto& shading = scene.scene.settings.shading;
+  result.shading.blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
+  result.shading.gradient = shading.gradient == Gradient::full ? reference::Gradient::full : reference::Gradient::paper;
+  result.shading.roughness = shading.roughness;
+  result.shading.sheen = shading.sheen;
+  result.shading.cavity = shading.cavity;
+  result.shading.parallax = shading.parallax;
+  const auto& profile = scene.scene.profile;
+  result.profile = reference::tabulated(profile.f, profile.derivative, profile.slope_variance);
+  return result;
+}
+
+ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
+  now_.phases = scene.initial_phases;
+  const auto count = scene.topology.size();
+  now_.states.resize(static_cast<std::size_t>(count));
+  now_.wavenumbers = Eigen::Matrix2Xd::Zero(2, count);
+  now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
+}
+
+void ReferenceChain::step(const Pose& pose, bool with_crush) {
+  if (!last_.empty() && last_.front() == pose) return;
+  last_ = {pose};
+  now_.positions = scene_.positions(pose);
+  now_.frames = scene_.frames(pose, now_.positions);
+  if (!with_crush) return;
+  const auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames, scene_.wavelength,
+                                        scene_.mask, scene_.crush, now_.states);
+  for (std::size_t v = 0; v < crushed.size(); ++v) {
+    const auto i = static_cast<Index>(v);
+    now_.wavenumbers.col(i) = crushed[v].wavenumber;
+    now_.heights[i] = crushed[v].height;
+    now_.weights[i] = crushed[v].weight;
+    now_.compression[i] = 1 - crushed[v].r;
+    now_.states[v] = {crushed[v].direction, crushed[v].status};
+  }
+  reference::WaveField field = now_.field();
+  reference::relax(scene_.topology, field, scene_.relax);
+  now_.phases = field.phases;
+  for (std::size_t v = 0; v < now_.states.size(); ++v) now_.states[v].status = field.status[v];
+}
+
+}  // namespace plisse::pipeline

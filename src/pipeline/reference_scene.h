@@ -1,0 +1,64 @@
+// A scene as the double-precision reference sees it: conversions from the pipeline's data and from what the GPU holds, and
+// the whole chain of passes stepped in the reference.
+#pragma once
+
+#include <vector>
+
+#include "passes/surface_buffers.h"
+#include "pipeline/loaded_scene.h"
+#include "reference/crush.h"
+#include "reference/relax.h"
+#include "reference/render.h"
+#include "reference/skin.h"
+
+namespace plisse::pipeline {
+
+// Everything in model units, as in the passes.
+struct ReferenceScene {
+  explicit ReferenceScene(const LoadedScene& scene);
+  reference::SkinPose pose(const Pose& pose) const;                 // palette and morph weights
+  Eigen::Matrix3Xd positions(const Pose& pose) const;               // x', from bones or cache
+  reference::Frames frames(const Pose& pose, const Eigen::Matrix3Xd& positions) const;
+
+  const LoadedScene& scene;
+  reference::Topology topology;
+  reference::Frames rest_frames;                     // those the passes were given
+  std::vector<std::uint32_t> tangent_neighbour;
+  reference::SkinModel skin;
+  Eigen::VectorXd wavelength, mask, phase_noise, initial_phases;
+  reference::CrushSettings crush;
+  reference::RelaxSettings relax;
+};
+
+// One moment's waves, whoever computed them.
+struct WaveSnapshot {
+  Eigen::Matrix3Xd positions;
+  reference::Frames frames;
+  Eigen::Matrix2Xd wavenumbers;      // κ in (t', b')
+  Eigen::VectorXd heights, weights, phases;
+  Eigen::VectorXd compression;       // s = 1 − r
+  std::vector<reference::CrushState> states;
+
+  reference::WaveField field() const;  // world wavenumbers from the components
+};
+WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface);
+
+// The picture of a snapshot. Textures are converted once and kept by the caller.
+reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot, const passes::View& view,
+                               const std::vector<reference::Texture>& textures);
+std::vector<reference::Texture> reference_textures(const LoadedScene& scene);
+
+// All passes in double precision, each fed by the one before.
+class ReferenceChain {
+ public:
+  explicit ReferenceChain(const ReferenceScene& scene);
+  void step(const Pose& pose, bool with_crush);
+  const WaveSnapshot& now() const { return now_; }
+
+ private:
+  const ReferenceScene& scene_;
+  WaveSnapshot now_;
+  std::vector<Pose> last_;  // at most one
+};
+
+}  // namespace plisse::pipeline

@@ -1,0 +1,158 @@
+#include "pipeline/stepper.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/log.h"
+
+namespace plisse::pipeline {
+
+passes::RelaxOptions relax_options(const RelaxSettings& settings) {
+  passes::RelaxOptions options;
+  options.rounds = settings.rounds;
+  options.epsilon = settings.epsilon;
+  options.onset = settings.mode == RelaxMode::smooth;
+  options.onset_rounds = settings.onset_rounds;
+  options.smoothing_rounds = settings.smoothing_rounds;
+  return options;
+}
+
+Stepper::Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& shader_folder)
+    : scene_(scene),
+      timer_(timer),
+      surface_(scene.surface(), scene.rest, scene.waves, scene.units, scene.settings.wrinkles.seed),
+      skin_(scene.pose(1).palette.size(), scene.surface().target_count, shader_folder),
+      crush_(shader_folder),
+      relax_(shader_folder) {}
+
+bool Stepper::crush_runs_at(int step) const {
+  return (scene_.frame_of_step(step) - 1) % scene_.settings.relax.interval == 0;
+}
+
+void Stepper::skin(const Pose& pose) {
+  timer_.begin("skin");
+  if (!pose.cache.empty()) {
+    std::vector<glm::vec4> positions;
+    positions.reserve(pose.cache.size());
+    for (const auto& x : pose.cache) positions.emplace_back(glm::vec3(scene_.units.world(x)), 1.0F);
+    skin_.run_cache(surface_, positions);
+  } else {
+    std::vector<glm::dmat4> palette;
+    palette.reserve(pose.palette.size());
+    for (const auto& m : pose.palette) palette.push_back(scene_.units.matrix(m));
+    skin_.run(surface_, palette, pose.morph_weights);
+  }
+  timer_.end();
+}
+
+void Stepper::crush() {
+  timer_.begin("crush");
+  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, scene_.settings.relax.mode == RelaxMode::descent);
+  timer_.end();
+}
+
+void Stepper::relax() {
+  timer_.begin("relax");
+  relax_.run(surface_, relax_options(scene_.settings.relax));
+  timer_.end();
+}
+
+void Stepper::observe(Stage stage) const {
+  if (observer) observer(stage);
+}
+
+void Stepper::advance_to(int step) {
+  while (step_ < step) {
+    const Pose& pose = scene_.pose(step_ + 1);
+    ++step_;
+    unchanged_ = last_pose_ && *last_pose_ == pose;
+    if (unchanged_) {
+      ++unchanged_steps_;
+    } else {
+      skin(pose);
+      observe(Stage::posed);
+      if (crush_runs_at(step_)) {
+        crush();
+        observe(Stage::crushed);
+        relax();
+        observe(Stage::relaxed);
+      }
+      last_pose_ = pose;
+    }
+    scene_.drop_poses_before(step_);
+  }
+}
+
+namespace {
+constexpr char magic[8] = {'p', 'l', 'i', 's', 's', 'e', 's', '1'};
+
+struct StateHeader {
+  char magic[8];
+  std::int32_t step;
+  std::uint32_t vertices;
+  char key[32];    // of everything that led here
+  char check[32];  // of the bytes that follow
+};
+
+Hash keyed(Hash history, const Hash& driver) { return history.add(driver.hex()); }
+}  // namespace
+
+void Stepper::write_state(const std::filesystem::path& path, const Hash& driver) {
+  std::vector<std::uint8_t> content;
+  for (const gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames}) {
+    const auto bytes = buffer->read<std::uint8_t>();
+    content.insert(content.end(), bytes.begin(), bytes.end());
+  }
+  StateHeader header{};
+  std::memcpy(header.magic, magic, sizeof magic);
+  header.step = step_;
+  header.vertices = static_cast<std::uint32_t>(surface_.vertex_count);
+  std::memcpy(header.key, keyed(scene_.state_hash(step_), driver).hex().data(), 32);
+  Hash check;
+  check.add_bytes(content);
+  std::memcpy(header.check, check.hex().data(), 32);
+  std::vector<std::uint8_t> file(sizeof header + content.size());
+  std::memcpy(file.data(), &header, sizeof header);
+  std::memcpy(file.data() + sizeof header, content.data(), content.size());
+  write_whole_file(path, file);
+}
+
+bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, int last_usable_step) {
+  if (!std::filesystem::exists(path)) return false;
+  const auto refuse = [&](const std::string& why) {
+    log::warn(fmt::format("{}: {}; stepping from the clip's start instead", path.string(), why));
+    return false;
+  };
+  const auto file = read_whole_file(path);
+  StateHeader header{};
+  if (file.size() < sizeof header) return refuse("not a state file of plisse");
+  std::memcpy(&header, file.data(), sizeof header);
+  if (std::memcmp(header.magic, magic, sizeof magic) != 0) return refuse("not a state file of this version of plisse");
+  const std::span<const std::uint8_t> content(file.data() + sizeof header, file.size() - sizeof header);
+  Hash check;
+  check.add_bytes(content);
+  if (check.hex() != std::string(header.check, 32)) return refuse("damaged (its check sum is wrong)");
+  if (header.vertices != surface_.vertex_count || header.step < 1 || header.step > scene_.step_of_frame(scene_.animation.timeline().frame_count)) {
+    return refuse("made from another model");
+  }
+  if (header.step > last_usable_step) return refuse("made after the first frame that is wanted");
+  if (std::string(header.key, 32) != keyed(scene_.state_hash(header.step), driver).hex()) {
+    return refuse("made with other settings, another model or another driver");
+  }
+  std::size_t at = 0;
+  for (gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames}) {
+    if (at + buffer->bytes() > content.size()) return refuse("too short");
+    buffer->write(content.data() + at, buffer->bytes());
+    at += buffer->bytes();
+  }
+  step_ = header.step;
+  last_pose_ = scene_.pose(step_);
+  unchanged_ = false;
+  scene_.drop_poses_before(step_);
+  return true;
+}
+
+}  // namespace plisse::pipeline

@@ -1,0 +1,64 @@
+// The passes' memory over time on the GPU (docs/contract.md, "State over time"): steps a scene's history in order, so that
+// a frame does not depend on which frames were asked for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "gpu/timer.h"
+#include "passes/crush.h"
+#include "passes/relax.h"
+#include "passes/skin.h"
+#include "passes/surface_buffers.h"
+#include "pipeline/loaded_scene.h"
+
+namespace plisse::pipeline {
+
+passes::RelaxOptions relax_options(const RelaxSettings& settings);
+
+class Stepper {
+ public:
+  // Needs a current OpenGL context.
+  Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& shader_folder);
+
+  // Steps on until the state is that of `step` (LoadedScene::step_of_frame); never backward.
+  void advance_to(int step);
+  int step() const { return step_; }
+  // Whether the last step found the pose of the one before, bit for bit, and left everything as it was.
+  bool unchanged() const { return unchanged_; }
+  int unchanged_steps() const { return unchanged_steps_; }
+  // Whether crush and relax run at a step: every n-th frame of the clip.
+  bool crush_runs_at(int step) const;
+
+  // Positions, frames, waves and phases of the current step.
+  passes::SurfaceBuffers& surface() { return surface_; }
+
+  // Called inside a step, after the stage named, for who wants to look between the passes. `posed`: skin is done.
+  enum class Stage { posed, crushed, relaxed };
+  std::function<void(Stage)> observer;
+
+  // The state under a name, keyed by everything that led to it. Reading returns whether it fitted; if not, a warning says
+  // why and nothing changed.
+  void write_state(const std::filesystem::path& path, const Hash& driver);
+  bool read_state(const std::filesystem::path& path, const Hash& driver, int last_usable_step);
+
+ private:
+  void skin(const Pose& pose);
+  void crush();
+  void relax();
+  void observe(Stage stage) const;
+  LoadedScene& scene_;
+  gpu::StageTimer& timer_;
+  passes::SurfaceBuffers surface_;
+  passes::SkinPass skin_;
+  passes::CrushPass crush_;
+  passes::RelaxPass relax_;
+  int step_ = 0;
+  std::optional<Pose> last_pose_;
+  bool unchanged_ = false;
+  int unchanged_steps_ = 0;
+};
+
+}  // namespace plisse::pipeline
