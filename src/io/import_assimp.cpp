@@ -74,42 +74,6 @@ Space space_of_collada(const std::filesystem::path& path) {
   return space;
 }
 
-int add_node(const aiNode& from, int parent, AssimpScene& scene, Model& model) {
-  const int id = static_cast<int>(model.nodes.size());
-  Node& node = model.nodes.emplace_back();
-  node.name = from.mName.C_Str();
-  node.parent = parent;
-  node.local = mat4(from.mTransformation);
-  if (!scene.node_ids.emplace(node.name, id).second && !node.name.empty())
-    log::warn_once(
-        "node names " + scene.path.string(),
-        fmt::format("{}: several nodes are called '{}'; animation and bones go to the first of them",
-                    scene.path.string(), node.name));
-  for (unsigned c = 0; c < from.mNumChildren; ++c) add_node(*from.mChildren[c], id, scene, model);
-  return id;
-}
-
-// The same walk again, now that it is known which meshes have triangles.
-void hang_meshes(const aiNode& from, int& id, const AssimpScene& scene, Model& model) {
-  Node& node = model.nodes[static_cast<std::size_t>(id++)];
-  for (unsigned m = 0; m < from.mNumMeshes; ++m) {
-    const int mesh = from.mMeshes[m] < scene.mesh_ids.size() ? scene.mesh_ids[from.mMeshes[m]] : -1;
-    if (mesh < 0) continue;
-    node.meshes.push_back(mesh);
-    const std::size_t targets = model.meshes[static_cast<std::size_t>(mesh)].targets.size();
-    if (targets <= node.morph_weights.size()) continue;
-    node.morph_weights.resize(targets, 0);
-    const aiMesh& source = *scene.scene.mMeshes[from.mMeshes[m]];
-    for (std::size_t t = 0; t < targets; ++t) {
-      const double weight = static_cast<double>(source.mAnimMeshes[t]->mWeight);
-      // For FBX 5.2.5 writes 1 wherever a channel has one shape, whatever the file says; 0 is what files
-      // mean.
-      node.morph_weights[t] = scene.kind == FileKind::fbx && weight == 1 ? 0 : weight;
-    }
-  }
-  for (unsigned c = 0; c < from.mNumChildren; ++c) hang_meshes(*from.mChildren[c], id, scene, model);
-}
-
 // A camera looks along −z of its node with y up; where the file's looks elsewhere a node in between turns it.
 void read_cameras(const AssimpScene& from, Model& model) {
   for (unsigned c = 0; c < from.scene.mNumCameras; ++c) {
@@ -142,6 +106,9 @@ void read_cameras(const AssimpScene& from, Model& model) {
 
 Model import_assimp(const std::filesystem::path& path, const ImportOptions& options) {
   Assimp::Importer importer;
+  // FBX pivots stay apart, to be put together by read_nodes: assimp's own way loses the geometric transforms
+  // of skins.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   // Files with a skeleton and no mesh get a dummy body otherwise.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -154,7 +121,7 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
 
   Model model;
   model.path = path;
-  AssimpScene from{*scene, kind_of(path), path, {}, {}, {}};
+  AssimpScene from{*scene, kind_of(path), path, {}, {}, {}, {}, {}};
   const Space space = from.kind == FileKind::fbx       ? space_of_fbx(*scene)
                       : from.kind == FileKind::collada ? space_of_collada(path)
                                                        : Space{};
@@ -164,16 +131,10 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   // COLLADA's root already carries the file's own unit.
   if (from.kind == FileKind::collada) world = glm::scale(world, glm::dvec3{1 / space.metres_per_unit});
 
-  int root = -1;
-  if (world != glm::dmat4{1}) {
-    model.nodes.emplace_back().name = "(world)";
-    model.nodes.back().local = world;
-    root = 0;
-  }
-  int first = add_node(*scene->mRootNode, root, from, model);
+  read_nodes(from, world, model);
   read_materials(from, model);
   read_meshes(from, model);
-  hang_meshes(*scene->mRootNode, first, from, model);
+  hang_meshes(from, model);
   read_cameras(from, model);
   read_clips(from, model);
   return model;

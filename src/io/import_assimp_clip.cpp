@@ -30,11 +30,18 @@ Keys<Value> read_keys(const Key* source, unsigned count, double ticks_per_second
   return keys;
 }
 
-// FBX calls the channel "node*index"; the others by the node's name.
-int node_of_morph(const AssimpScene& from, const std::string& name) {
-  auto node = from.node_ids.find(name);
-  if (node == from.node_ids.end()) node = from.node_ids.find(name.substr(0, name.find_last_of('*')));
-  return node == from.node_ids.end() ? -1 : node->second;
+// FBX calls the channel "node*index"; the others by the node's name. The weights may be with the node's holder of meshes
+// (hang_meshes), which bears the same name below it.
+int node_of_morph(const AssimpScene& from, const Model& model, const std::string& name) {
+  auto found = from.node_ids.find(name);
+  if (found == from.node_ids.end()) found = from.node_ids.find(name.substr(0, name.find_last_of('*')));
+  if (found == from.node_ids.end()) return -1;
+  const int id = found->second;
+  if (!model.nodes[static_cast<std::size_t>(id)].morph_weights.empty()) return id;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes[n].parent == id && model.nodes[n].name == found->first && !model.nodes[n].morph_weights.empty())
+      return static_cast<int>(n);
+  return id;
 }
 
 Keys<std::vector<double>> read_morph_keys(const aiMeshMorphAnim& source, double ticks_per_second,
@@ -87,7 +94,7 @@ void read_clips(const AssimpScene& from, Model& model) {
     }
     for (unsigned c = 0; c < source.mNumMorphMeshChannels; ++c) {
       const aiMeshMorphAnim& motion = *source.mMorphMeshChannels[c];
-      const int node = node_of_morph(from, motion.mName.C_Str());
+      const int node = node_of_morph(from, model, motion.mName.C_Str());
       if (node < 0) {
         ++lost;
         continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/log.h"
 #include "io/import_assimp_parts.h"
@@ -45,27 +46,62 @@ const aiNode* node_with(const aiNode& node, unsigned mesh) {
   return nullptr;
 }
 
+// Vertices whose bones the file names but does not have follow the nearest vertex that has one: a part of a
+// limb should stay with the limb. Few files are like that and few vertices in them; where they are many it is
+// not worth it.
+void adopt(const std::vector<std::size_t>& orphans, const Mesh& mesh,
+           std::vector<std::vector<BoneWeight>>& weights) {
+  constexpr std::size_t most_pairs = 100'000'000;
+  if (orphans.size() * weights.size() > most_pairs) return;
+  const std::vector<std::vector<BoneWeight>> before = weights;
+  for (const std::size_t orphan : orphans) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      if (before[v].empty()) continue;
+      const double distance = glm::distance(mesh.positions[v], mesh.positions[orphan]);
+      if (distance >= least) continue;
+      least = distance;
+      weights[orphan] = before[v];
+    }
+  }
+}
+
 void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
   const aiMesh& source = *from.scene.mMeshes[mesh_id];
+  if (source.mNumBones == 0) return;
+  const aiNode* holder = node_with(*from.scene.mRootNode, mesh_id);
+  const auto geometric = from.geometric.find(holder);
+  const glm::dmat4 before = geometric == from.geometric.end() ? glm::dmat4{1} : geometric->second;
+
   std::vector<std::vector<BoneWeight>> weights(mesh.positions.size());
+  std::vector<bool> lost(mesh.positions.size(), false);
   for (unsigned b = 0; b < source.mNumBones; ++b) {
     const aiBone& bone = *source.mBones[b];
     const auto node = from.node_ids.find(bone.mName.C_Str());
-    if (node == from.node_ids.end()) {
-      log::warn_once("bone nodes " + from.path.string(),
-                     fmt::format("{}: bone '{}' of mesh '{}' has no node; its influence is left out",
-                                 from.path.string(), bone.mName.C_Str(), mesh.name));
-      continue;
-    }
+    if (node == from.node_ids.end())
+      log::warn_once(
+          "bone nodes " + from.path.string(),
+          fmt::format(
+              "{}: bone '{}' of mesh '{}' is nowhere in the file; its vertices follow the nearest others",
+              from.path.string(), bone.mName.C_Str(), mesh.name));
     for (unsigned w = 0; w < bone.mNumWeights; ++w) {
       const aiVertexWeight& weight = bone.mWeights[w];
-      if (weight.mVertexId < weights.size() && weight.mWeight > 0 && std::isfinite(weight.mWeight))
+      if (weight.mVertexId >= weights.size() || !(weight.mWeight > 0) || !std::isfinite(weight.mWeight))
+        continue;
+      if (node == from.node_ids.end())
+        lost[weight.mVertexId] = true;
+      else
         weights[weight.mVertexId].push_back(
             {static_cast<std::uint32_t>(mesh.bones.size()), static_cast<double>(weight.mWeight)});
     }
-    mesh.bones.push_back({node->second, mat4(bone.mOffsetMatrix)});
+    if (node != from.node_ids.end()) mesh.bones.push_back({node->second, mat4(bone.mOffsetMatrix) * before});
   }
   if (mesh.bones.empty()) return;
+
+  std::vector<std::size_t> orphans;
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (lost[v] && weights[v].empty()) orphans.push_back(v);
+  if (!orphans.empty()) adopt(orphans, mesh, weights);
 
   std::size_t most = 0, cut = 0, unbound = 0;
   for (const auto& of_vertex : weights) {
@@ -81,9 +117,8 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
                     from.path.string(), mesh.name, most, max_influences, cut));
   const auto own_bone = static_cast<std::uint32_t>(mesh.bones.size());
   if (unbound > 0) {
-    const aiNode* node = node_with(*from.scene.mRootNode, mesh_id);
-    const auto id = node == nullptr ? from.node_ids.end() : from.node_ids.find(node->mName.C_Str());
-    mesh.bones.push_back({id == from.node_ids.end() ? 0 : id->second, glm::dmat4{1}});
+    const auto id = from.ids.find(holder);
+    mesh.bones.push_back({id == from.ids.end() ? 0 : id->second, before});
     log::warn_once("unbound " + from.path.string() + mesh.name,
                    fmt::format("{}: {} vertices of mesh '{}' have no bone; they move with its node",
                                from.path.string(), unbound, mesh.name));

@@ -22,6 +22,9 @@ struct AssimpScene {
   FileKind kind;
   std::filesystem::path path;
   std::unordered_map<std::string, int> node_ids;  // first node of each name → index into Model::nodes
+  std::unordered_map<const aiNode*, int> ids;     // index into Model::nodes
+  // FBX: what moves a node's meshes but not its children; only where it is not the identity.
+  std::unordered_map<const aiNode*, glm::dmat4> geometric;
   std::vector<int> mesh_ids;          // aiMesh → index into Model::meshes, −1 without triangles
   std::vector<unsigned> uv_channels;  // per aiMaterial: the uv set of its base-colour texture
 };
@@ -34,6 +37,10 @@ inline glm::dmat4 mat4(const aiMatrix4x4& m) {
       {m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
 }
 
+// Nodes under one that holds `world`; fills node_ids, ids and geometric.
+void read_nodes(AssimpScene& from, const glm::dmat4& world, Model& model);
+// Once meshes and nodes are read: which node shows which mesh.
+void hang_meshes(const AssimpScene& from, Model& model);
 void read_materials(AssimpScene& from, Model& model);  // and textures; fills uv_channels
 void read_meshes(AssimpScene& from, Model& model);     // fills mesh_ids; bones need node_ids
 void read_clips(const AssimpScene& from, Model& model);

@@ -28,7 +28,7 @@ struct Timeline {
 };
 
 struct AnimationChoice {
-  std::string clip;              // name or index; empty: the first clip
+  std::string clip = {};         // name or index; empty: the first clip
   double frames_per_second = 0;  // 0: 24 (a vertex cache keeps its own rate)
   std::string rest = "auto";     // auto | bind | frame:N | path of a model with the same vertices
   bool loop = false;

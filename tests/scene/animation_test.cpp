@@ -1,0 +1,324 @@
+// Posing and welding of models made by hand, whose right answers are known.
+#include "scene/animation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "io/import.h"
+
+namespace plisse {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Positions near 1 through a few matrix products in doubles; weights are floats but ½ or 1 here.
+constexpr double rounding = 1e-12;
+
+glm::dquat about(const glm::dvec3& axis, double angle) {
+  return {std::cos(angle / 2), axis * std::sin(angle / 2)};
+}
+
+// A strip of n squares of side 1 along y in the xy-plane.
+io::Mesh strip(int n) {
+  io::Mesh mesh;
+  mesh.name = "strip";
+  for (int i = 0; i <= n; ++i)
+    for (const double x : {0.0, 1.0}) mesh.positions.emplace_back(x, i, 0);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i)
+    for (const std::uint32_t corner : {0, 1, 3, 0, 3, 2}) mesh.triangles.push_back(2 * i + corner);
+  mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+  return mesh;
+}
+
+io::Model model_of(io::Mesh mesh) {
+  io::Model model;
+  model.path = "made by hand";
+  model.nodes.resize(1);
+  model.nodes[0].name = "root";
+  model.nodes[0].meshes = {0};
+  model.nodes[0].morph_weights.assign(mesh.targets.size(), 0);
+  model.meshes.push_back(std::move(mesh));
+  return model;
+}
+
+io::Clip clip_of(double duration, std::vector<io::Channel> channels) {
+  return {"clip", duration, std::move(channels)};
+}
+
+io::Channel turning(int node, const glm::dvec3& axis, double from, double to, double duration) {
+  io::Channel channel;
+  channel.node = node;
+  channel.rotation.times = {0, duration};
+  channel.rotation.values = {about(axis, from), about(axis, to)};
+  return channel;
+}
+
+// The strip on two bones, the upper one at y = 2; vertices at y = 2 hang on both. The armature is `armature`
+// of everything, and the bind pose is how the nodes stand.
+io::Model sleeve(const glm::dmat4& armature = glm::dmat4{1}) {
+  io::Model model = model_of(strip(4));
+  io::Mesh& mesh = model.meshes[0];
+  model.nodes.resize(4);
+  model.nodes[1] = {"armature", 0, armature, {}, {}};
+  model.nodes[2] = {"lower", 1, glm::dmat4{1}, {}, {}};
+  model.nodes[3] = {"upper", 2, glm::translate(glm::dmat4{1}, {0, 2, 0}), {}, {}};
+  mesh.bones = {{2, glm::dmat4{1}}, {3, glm::translate(glm::dmat4{1}, {0, -2, 0})}};
+  for (const glm::dvec3& p : mesh.positions) {
+    io::Influences influences;
+    if (p.y == 2) {
+      influences.bone = {0, 1};
+      influences.weight = {0.5F, 0.5F};
+    } else {
+      influences.bone[0] = p.y > 2 ? 1 : 0;
+      influences.weight[0] = 1;
+    }
+    mesh.influences.push_back(influences);
+  }
+  return model;
+}
+
+std::vector<double> edge_lengths(const Surface& surface, const std::vector<glm::dvec3>& positions) {
+  std::vector<double> lengths;
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+    for (std::uint32_t i = surface.neighbours.offsets[v]; i < surface.neighbours.offsets[v + 1]; ++i)
+      lengths.push_back(glm::distance(positions[v], positions[surface.neighbours.items[i]]));
+  return lengths;
+}
+
+void expect_same(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+template <typename Action>
+std::string error_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::bad_input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Animation, CountsFramesAsTheContractSays) {
+  io::Model model = model_of(strip(1));
+  // ⌊T·fps + 1e-3⌋ + 1, with durations that single precision leaves short of a whole frame.
+  for (const auto& [duration, fps, frames] : {std::tuple{1.0, 24.0, 25},
+                                              {2.0833299, 24.0, 51},
+                                              {0.70833, 24.0, 18},
+                                              {0.99, 24.0, 24},
+                                              {0.0, 24.0, 1},
+                                              {1.0, 30.0, 31}}) {
+    model.clips = {clip_of(duration, {})};
+    EXPECT_EQ(Animation(model, {.frames_per_second = fps}).timeline().frame_count, frames) << duration;
+  }
+  model.clips.clear();
+  EXPECT_EQ(Animation(model, {}).timeline().frame_count, 1);
+}
+
+TEST(Animation, BendsASkinAsByHand) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
+  Animation animation(model, {});
+  const Surface& surface = animation.surface();
+  ASSERT_EQ(surface.vertex_count(), 10U);
+  EXPECT_EQ(posed(surface, animation.pose(1)), surface.bind);
+  // A quarter turn about (0, 2): (x, y) goes to (2 − y, 2 + x); half of it on the row at y = 2.
+  const std::vector<glm::dvec3> bent = posed(surface, animation.pose(25));
+  for (std::size_t v = 0; v < 10; ++v) {
+    const glm::dvec3 p = surface.bind[v];
+    const glm::dvec3 turned{2 - p.y, 2 + p.x, 0};
+    const glm::dvec3 expected = p.y < 2 ? p : p.y > 2 ? turned : 0.5 * (p + turned);
+    EXPECT_NEAR(glm::distance(bent[v], expected), 0, rounding) << v;
+  }
+}
+
+TEST(Animation, RigidMotionOfASkinKeepsDistances) {
+  io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
+  io::Channel channel = turning(0, glm::normalize(glm::dvec3{1, 2, 3}), 0, 2.5, 1);
+  channel.translation.times = {0, 1};
+  channel.translation.values = {{0, 0, 0}, {5, -3, 8}};
+  model.clips = {clip_of(1, {channel})};
+  Animation animation(model, {});
+  const Surface& surface = animation.surface();
+  const std::vector<double> rest = edge_lengths(surface, surface.rest);
+  EXPECT_NEAR(rest[0], 0.01, rounding);  // metres of the world, not of the file's mesh
+  for (const int frame : {1, 7, 25})
+    expect_same(edge_lengths(surface, posed(surface, animation.pose(frame))), rest, rounding);
+}
+
+// An armature scaled along one axis, or by 100, or mirrored, as exporters write them: the rest is what the
+// default pose shows, so nothing reads as compressed.
+TEST(Animation, ScaledArmaturesRestUncompressed) {
+  for (const glm::dvec3& scale : {glm::dvec3{100}, glm::dvec3{0.01}, glm::dvec3{1, 1.23, 1},
+                                  glm::dvec3{-1, 1, 1}, glm::dvec3{-2, 0.5, 3}}) {
+    Animation animation(sleeve(glm::scale(glm::dmat4{1}, scale)), {});
+    const Surface& surface = animation.surface();
+    const std::vector<glm::dvec3> shown = posed(surface, animation.pose(1));
+    expect_same(edge_lengths(surface, shown), edge_lengths(surface, surface.rest),
+                rounding * glm::length(scale));
+    for (std::size_t v = 0; v < shown.size(); ++v) {
+      bool found = false;
+      for (const glm::dvec3& p : strip(4).positions)
+        found |= glm::distance(shown[v], scale * p) < rounding * glm::length(scale);
+      EXPECT_TRUE(found) << v;
+    }
+    // Area normals agree with the file's, mirrors included.
+    const RestFrames frames = rest_frames(surface);
+    for (const RenderVertex& vertex : surface.render_vertices)
+      EXPECT_NEAR(glm::dot(glm::dvec3(vertex.normal), frames.normal[vertex.welded]), 1, 1e-6);  // floats
+  }
+}
+
+// Where the nodes stand bent although the skin was bound straight, the size still comes out right.
+TEST(Animation, BindPoseNeedNotBeTheDefaultPose) {
+  io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
+  model.nodes[3].local = model.nodes[3].local * glm::mat4_cast(about({1, 0, 0}, 1));
+  Animation animation(model, {});
+  const std::vector<double> rest = edge_lengths(animation.surface(), animation.surface().rest);
+  for (const double length : rest)
+    EXPECT_TRUE(std::abs(length - 0.01) < rounding || std::abs(length - 0.01 * std::sqrt(2)) < rounding);
+}
+
+TEST(Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
+  io::Model model = sleeve();
+  // The upper half in another mesh of another material; its lowest row repeats the first mesh's highest.
+  io::Mesh upper = model.meshes[0];
+  upper.name = "upper half";
+  model.meshes[0].triangles.resize(12);
+  upper.triangles.erase(upper.triangles.begin(), upper.triangles.begin() + 12);
+  model.meshes.push_back(upper);
+  model.nodes[0].meshes = {0, 1};
+  Animation joined(model, {});
+  EXPECT_EQ(joined.surface().vertex_count(), 10U);
+  ASSERT_EQ(joined.surface().parts.size(), 2U);
+  EXPECT_EQ(joined.surface().parts[1].mesh, "upper half");
+  EXPECT_EQ(joined.surface().parts[1].first_triangle, 4U);
+
+  // The repeated row bound to the upper bone alone: the two copies part when it bends.
+  for (const std::size_t v : {4, 5}) {
+    model.meshes[1].influences[v].bone = {1};
+    model.meshes[1].influences[v].weight = {1};
+  }
+  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 12U);
+}
+
+TEST(Animation, WeldsStillNodesButNotMovingOnes) {
+  io::Model model = model_of(strip(1));
+  model.nodes.resize(3);
+  model.nodes[1] = {"left", 0, glm::translate(glm::dmat4{1}, {1, 0, 0}), {0}, {}};
+  model.nodes[2] = {"above", 0, glm::translate(glm::dmat4{1}, {0, 1, 0}), {0}, {}};
+  // Three squares in an L: 8 corners.
+  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 8U);
+  model.clips = {clip_of(1, {turning(2, {0, 1, 0}, 0, 1, 1)})};
+  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 10U);
+}
+
+TEST(Animation, MorphTargetsMoveInTheWorldsSpace) {
+  io::Mesh mesh = strip(1);
+  mesh.targets = {{"up", std::vector<glm::vec3>(4, {0, 0, 1})},
+                  {"side", std::vector<glm::vec3>(4, {1, 0, 0})}};
+  io::Model model = model_of(mesh);
+  model.nodes[0].local =
+      glm::rotate(glm::scale(glm::dmat4{1}, glm::dvec3{2}), pi / 2, {0, 1, 0});  // z → x, x → −z
+  io::Channel channel;
+  channel.node = 0;
+  channel.morph_weights.times = {0, 1};
+  channel.morph_weights.values = {{0, 0}, {1, 0.5}};
+  model.clips = {clip_of(1, {channel})};
+  Animation animation(model, {});
+  const std::vector<glm::dvec3> first = posed(animation.surface(), animation.pose(1));
+  const std::vector<glm::dvec3> last = posed(animation.surface(), animation.pose(25));
+  for (std::size_t v = 0; v < 4; ++v)
+    EXPECT_NEAR(glm::distance(last[v] - first[v], {2, 0, -1}), 0, 1e-6);  // deltas are floats
+}
+
+TEST(Animation, CacheKeepsVerticesThatPartLater) {
+  io::Model model = model_of(strip(1));
+  io::Mesh second = strip(1);  // lies on the first
+  model.meshes.push_back(second);
+  model.nodes[0].meshes = {0, 1};
+  std::vector<glm::dvec3> frame = model.meshes[0].positions;
+  frame.insert(frame.end(), second.positions.begin(), second.positions.end());
+  model.cache.frames = {frame, frame};
+  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 4U);
+  model.cache.frames[1][7].z += 0.5;
+  Animation animation(model, {});
+  EXPECT_EQ(animation.surface().vertex_count(), 5U);
+  EXPECT_EQ(animation.timeline().frame_count, 2);
+  EXPECT_NEAR(posed(animation.surface(), animation.pose(2))[4].z, 0.5, 0);
+}
+
+TEST(Animation, RestPoses) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {turning(3, {1, 0, 0}, 1, 2, 1)})};
+  EXPECT_EQ(Animation(model, {}).surface().rest, Animation(model, {}).surface().bind);
+  Animation framed(model, {.rest = "frame:13"});
+  EXPECT_EQ(framed.surface().rest, posed(framed.surface(), framed.pose(13)));
+  // The upper end turned with its bone, 1.5 rad about x, and the file normals with it.
+  for (const RenderVertex& vertex : framed.surface().render_vertices) {
+    if (framed.surface().bind[vertex.welded].y < 4) continue;
+    const glm::dvec3 expected{0, -std::sin(1.5), std::cos(1.5)};
+    EXPECT_NEAR(glm::distance(glm::dvec3(vertex.normal), expected), 0, 1e-6);  // floats
+  }
+  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "frame:26"}); }), testing::HasSubstr("1 to 25"));
+  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "frame:x"}); }), testing::HasSubstr("frame:N"));
+  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "gone.obj"}); }), testing::HasSubstr("gone.obj"));
+}
+
+TEST(Animation, ChoosesClips) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {}), clip_of(2, {}), clip_of(3, {})};
+  model.clips[0].name = "Survey";
+  model.clips[1].name = "Walk";
+  model.clips[2].name = "Run";
+  EXPECT_EQ(Animation(model, {}).clip_name(), "Survey");
+  EXPECT_EQ(Animation(model, {.clip = "Walk"}).clip_name(), "Walk");
+  EXPECT_EQ(Animation(model, {.clip = "2"}).clip_name(), "Run");
+  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "wolk"}); }), testing::HasSubstr("Walk, Survey, Run"));
+  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "3"}); }), testing::HasSubstr("Survey, Walk, Run"));
+}
+
+TEST(Animation, HoldsTheLastGoodPose) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 1)})};
+  io::Keys<glm::dquat>& track = model.clips[0].channels[0].rotation;
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  track.times = {0, 0.25, 0.5, 1};
+  track.values = {about({0, 0, 1}, 0), about({0, 0, 1}, 1), {bad, 0, 0, 0}, about({0, 0, 1}, 2)};
+  Animation animation(model, {});
+  const Pose good = animation.pose(7);  // 0.25 s
+  EXPECT_EQ(animation.pose(10), good);
+  EXPECT_EQ(animation.pose(13), good);
+  EXPECT_NE(animation.pose(25), good);
+  const Animation::Bounds bounds = animation.bounds();
+  EXPECT_TRUE(std::isfinite(glm::length(bounds.high - bounds.low)));
+}
+
+TEST(Animation, EqualTimesGiveEqualBits) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 0.5)})};
+  Animation animation(model, {});
+  EXPECT_EQ(animation.pose(13), animation.pose(25));
+  EXPECT_NE(animation.pose(12), animation.pose(13));
+}
+
+TEST(Animation, BoundsHoldEveryFrame) {
+  io::Model model = sleeve();
+  model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
+  Animation animation(model, {});
+  const Animation::Bounds bounds = animation.bounds();
+  // Bent, the far corner (0, 4) comes to (−2, 2); on the way (1, 4) swings through y = 2 + √5.
+  EXPECT_NEAR(bounds.low.x, -2, rounding);
+  EXPECT_NEAR(bounds.high.y, 2 + std::sqrt(5.0), 1e-2);  // between two of 25 frames
+  EXPECT_NEAR(bounds.low.y, 0, rounding);
+}
+
+}  // namespace
+}  // namespace plisse
