@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "io/import_assimp_parts.h"
+#include "io/import_gltf_modes.h"
 #include "io/import_place.h"
 
 namespace plisse::io {
@@ -137,6 +138,7 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   hang_meshes(from, model);
   read_cameras(from, model);
   read_clips(from, model);
+  if (from.kind == FileKind::gltf) restore_gltf_modes(from, model);
   return model;
 }
 

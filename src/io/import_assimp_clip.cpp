@@ -1,4 +1,4 @@
-// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear.
+// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear (import_gltf_modes.h mends it).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,10 @@
 // What a reader hands over: one model file (or a numbered sequence) as plain data, before welding and posing.
 // Every reader fills this and nothing else, and `validate` looks at it afterwards, whichever reader it was.
 //
-// Units: lengths as in the file times `metres_per_unit`, which is applied by the reader: everything here is metres,
-// y up, right-handed (readers turn other up axes). Times are seconds. Colours are linear unless said otherwise.
+// Units: the world that nodes place meshes in is metres, y up, right-handed: readers put the file's unit and
+// up axis into a node above its roots (or into the positions, where the file has no nodes). A mesh's own
+// coordinates are the file's. Times are seconds from the clip's start. Colours are linear unless said
+// otherwise.
 #pragma once
 
 #include <array>
@@ -30,8 +32,8 @@ struct Texture {
 struct Material {
   enum class Alpha { opaque, mask, blend };
   std::string name;
-  glm::vec4 base_colour{1.0F};     // linear, multiplies the texture
-  int base_colour_texture = -1;    // index into Model::textures, −1 none
+  glm::vec4 base_colour{1.0F};   // linear, multiplies the texture
+  int base_colour_texture = -1;  // index into Model::textures, −1 none
   Alpha alpha = Alpha::opaque;
   float alpha_cutoff = 0.5F;
   bool two_sided = true;
@@ -46,7 +48,7 @@ struct Influences {
 };
 
 struct Bone {
-  int node = -1;        // index into Model::nodes
+  int node = -1;         // index into Model::nodes
   glm::dmat4 offset{1};  // mesh space → the bone's space at bind time (inverse bind matrix)
 };
 
@@ -60,20 +62,20 @@ struct Mesh {
   std::string name;
   int material = -1;
   std::vector<glm::dvec3> positions;
-  std::vector<glm::vec3> normals;         // unit, or empty
-  std::vector<glm::vec2> uvs;             // v grows upward as in OpenGL (texture row 0 is at v = 1), or empty
-  std::vector<std::uint32_t> triangles;   // three indices each
-  std::vector<Bone> bones;                // empty: rigid, moves with its node
-  std::vector<Influences> influences;     // one per vertex where bones is not empty
+  std::vector<glm::vec3> normals;        // unit, or empty
+  std::vector<glm::vec2> uvs;            // v grows upward as in OpenGL (texture row 0 is at v = 1), or empty
+  std::vector<std::uint32_t> triangles;  // three indices each
+  std::vector<Bone> bones;               // empty: rigid, moves with its node
+  std::vector<Influences> influences;    // one per vertex where bones is not empty
   std::vector<MorphTarget> targets;
-  int file_max_influences = 0;            // as found, before keeping eight
+  int file_max_influences = 0;  // as found, before keeping eight
 };
 
 struct Node {
   std::string name;
-  int parent = -1;              // always smaller than the node's own index
-  glm::dmat4 local{1};          // to the parent; the pose where no clip moves it
-  std::vector<int> meshes;      // indices into Model::meshes; a mesh under two nodes is an instance each
+  int parent = -1;          // always smaller than the node's own index
+  glm::dmat4 local{1};      // to the parent; the pose where no clip moves it
+  std::vector<int> meshes;  // indices into Model::meshes; a mesh under two nodes is an instance each
   std::vector<double> morph_weights;  // of the mesh's targets where no clip moves them
 };
 
@@ -82,8 +84,8 @@ enum class Interpolation { linear, step, cubic_spline };
 template <typename Value>
 struct Keys {
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times;    // seconds, strictly increasing
-  std::vector<Value> values;    // one per time
+  std::vector<double> times;                     // seconds, strictly increasing
+  std::vector<Value> values;                     // one per time
   std::vector<Value> in_tangents, out_tangents;  // cubic_spline only, per second
 };
 
@@ -102,8 +104,8 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-// Positions a frame in place of bones: a numbered sequence or a point cache. frames[f] runs over the vertices of
-// all meshes one after the other.
+// Positions a frame in place of bones: a numbered sequence or a point cache. frames[f] runs over the vertices
+// of all meshes one after the other.
 struct VertexCache {
   double frames_per_second = 24;
   std::vector<std::vector<glm::dvec3>> frames;
@@ -118,8 +120,8 @@ struct Camera {
 
 struct Model {
   std::filesystem::path path;
-  double metres_per_unit = 1;
-  std::string up = "y";  // as the file had it
+  double metres_per_unit = 1;  // as applied: the file's, or the option's
+  std::string up = "y";        // likewise
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
