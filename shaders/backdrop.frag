@@ -23,5 +23,5 @@ void main() {
     }
     // Half a step of noise keeps eight bits from showing the gradient as bands (interleaved gradient noise, Jimenez 2014).
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
-    colour = vec4(c * (1.0 + noise * (1.6 / 255.0)), background.a);
+    colour = vec4(c * (1.0 + noise * (3.0 / 255.0)), background.a);
 }

@@ -3,7 +3,7 @@
 #include "common/items.glsl"
 #include "common/surface.glsl"
 
-layout(std430, binding = 4) readonly buffer RestRows { vec2 rest_rows[]; };  // (S + μE)⁻¹ v_i, an entry a neighbour
+layout(std430, binding = 4) readonly buffer RestRows { vec4 rest_rows[]; };  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
 layout(std430, binding = 6) buffer States { vec4 states[]; };                // k in (t, b); 1 − r; g
 layout(std430, binding = 9) buffer Counter { uint fresh_count; };
 uniform uint vertex_count;
@@ -19,12 +19,14 @@ void main() {
     Constant constant = constants[v];
     vec3 x = positions[v].xyz, n = frames[v].normal.xyz, t = frames[v].tangent.xyz, b = cross(n, t);
 
-    // M = (Σ v'⊗v + μE)(S + μE)⁻¹, its rows in m0 and m1.
-    vec2 m0 = constant.regression.xy, m1 = constant.regression.yz;
+    // M = (Σ v'⊗v + μE)(S + μE)⁻¹ = E + Σ (v' − v)⊗(S + μE)⁻¹v, its rows in m0 and m1: errors are then in proportion to the
+    // deformation, however slender the triangles.
+    vec2 m0 = vec2(1.0, 0.0), m1 = vec2(0.0, 1.0);
     for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
         vec3 e = positions[neighbours[i]].xyz - x;
-        m0 += dot(t, e) * rest_rows[i];
-        m1 += dot(b, e) * rest_rows[i];
+        vec4 rest = rest_rows[i];
+        m0 += (dot(t, e) - rest.z) * rest.xy;
+        m1 += (dot(b, e) - rest.w) * rest.xy;
     }
     float determinant = m0.x * m1.y - m0.y * m1.x;
     float sigma1 = 0.5 * (length(vec2(m0.x + m1.y, m1.x - m0.y)) + length(vec2(m0.x - m1.y, m0.y + m1.x)));
@@ -60,7 +62,7 @@ void main() {
     vec2 u2 = determinant < 0.0 ? vec2(u1.y, -u1.x) : vec2(-u1.y, u1.x);
     vec2 direction = u1 * dot(v1, k) / max(sigma1, floor_of_r) + u2 * dot(v2, k) / max(sigma2, floor_of_r);
 
-    float W = constant.regression.w, mask = constant.modifiers.x, s = 1.0 - r;
+    float W = constant.modifiers.x, mask = constant.modifiers.y, s = 1.0 - r;
     float h_in_W = 0.25 * sqrt(max(s * (1.0 + r), 0.0)) * smoothstep(0.5 * dead_zone, dead_zone, s) * mask;
     float weight = clamp((h_in_W - 0.0125) / 0.0625, 0.0, 1.0);
     vec2 wavenumber = direction / W;

@@ -24,7 +24,7 @@ vec3 safe_divide(vec3 p, float q) { return q > 0.0 ? p / q : vec3(0.0); }
 void main() {
     uint first = 3u * uint(gl_VertexID / 3), corner = uint(gl_VertexID % 3);
     uint id[3];
-    vec3 p[3], n[3], t[3];
+    vec3 p[3], n[3], t[3], facing = vec3(0.0);
     vec2 uvs[3];
     for (uint i = 0u; i < 3u; ++i) {
         RenderVertex vertex = render_vertices[triangles[first + i]];
@@ -33,10 +33,9 @@ void main() {
         t[i] = frames[id[i]].tangent.xyz;
         n[i] = frames[id[i]].normal.xyz;
         uvs[i] = vertex.uv;
-        if (i == corner) {
-            vec3 c = vertex.normal.xyz;
-            normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
-        }
+        vec3 c = vertex.normal.xyz, posed_normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
+        facing += posed_normal;
+        if (i == corner) normal = posed_normal;
     }
     x = p[corner];
     uv = uvs[corner];
@@ -46,7 +45,7 @@ void main() {
 #endif
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
-    plane = dot(area, n[0] + n[1] + n[2]) < 0.0 ? -area : area;
+    plane = dot(area, facing) < 0.0 ? -area : area;
 #ifndef PLAIN
     weights = vec2(corner == 1u, corner == 2u);
     vec3 wavenumbers[3];
@@ -56,7 +55,7 @@ void main() {
         wavenumbers[i] = wave.x * t[i] + wave.y * cross(n[i], t[i]);
         h[i] = wave.z;
         // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
-        tau[i] = dot(wavenumbers[i], x - p[i]) + (phases[id[i]].x + constants[id[i]].modifiers.y) * (0.5 / pi);
+        tau[i] = dot(wavenumbers[i], x - p[i]) + (phases[id[i]].x + constants[id[i]].modifiers.z) * (0.5 / pi);
     }
     wavenumber_a = wavenumbers[0];
     wavenumber_b = wavenumbers[1];

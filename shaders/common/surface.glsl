@@ -5,8 +5,7 @@ struct Frame {
     vec4 tangent;  // t', unit
 };
 struct Constant {
-    vec4 regression;  // μ(S + μE)⁻¹ as xx, xy, yy; then W
-    vec4 modifiers;   // mask; phase noise in radians; unused, unused
+    vec4 modifiers;  // W; mask; phase noise in radians; unused
 };
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };            // x'
 layout(std430, binding = 1) buffer Frames { Frame frames[]; };

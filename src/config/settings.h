@@ -59,10 +59,10 @@ struct CameraSettings {
 // Directions are given relative to the camera (degrees): azimuth to the right of the view, elevation above
 // it.
 struct LightSettings {
-  double key_azimuth = -55, key_elevation = 30, key_intensity = 2.4;
+  double key_azimuth = -55, key_elevation = 30, key_intensity = 1.15;
   double fill_azimuth = 50, fill_elevation = 15, fill_ratio = 0.25;  // of the key
-  double rim_azimuth = 160, rim_elevation = 35, rim_intensity = 0.8;
-  double ambient = 0.35;
+  double rim_azimuth = 160, rim_elevation = 35, rim_intensity = 0.5;
+  double ambient = 0.28;
   glm::vec3 key_colour{1.0F, 0.95F, 0.88F}, fill_colour{0.85F, 0.92F, 1.0F};
   bool shadows = false;  // the key light's shadow on model and ground
 };

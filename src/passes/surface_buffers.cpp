@@ -19,29 +19,18 @@ struct GpuInfluences {
   std::array<std::uint32_t, 8> entries;
   std::array<float, 8> weights;
 };
-struct GpuConstant {
-  glm::vec4 regression, modifiers;
-};
 struct GpuRenderVertex {
   glm::vec4 normal;
   glm::vec2 uv, unused;
 };
 
-// (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone. No neighbours: a
-// stand-in that makes M the identity.
-struct Regression {
-  glm::dmat2 inverse{1.0};
-  double mu = 1;
-};
-Regression regression_of(const glm::dvec2* begin, const glm::dvec2* end) {
+// (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone. Zero where no
+// neighbour tells anything: M is then the identity.
+glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   glm::dmat2 s(0.0);
   for (const auto* v = begin; v != end; ++v) s += glm::outerProduct(*v, *v);
-  Regression result;
   const double trace = s[0][0] + s[1][1];
-  if (!(trace > 0)) return result;
-  result.mu = 1e-6 * trace;
-  result.inverse = glm::inverse(s + glm::dmat2(result.mu));
-  return result;
+  return trace > 0 ? glm::inverse(s + glm::dmat2(1e-6 * trace)) : glm::dmat2(0.0);
 }
 
 }  // namespace
@@ -76,15 +65,15 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
   corners = gpu::Buffer(surface.corners.items);
   tangent_neighbours = gpu::Buffer(rest.tangent_neighbour);
 
-  std::vector<glm::vec2> rows(rest.edge.size());
+  std::vector<glm::vec4> rows(rest.edge.size());
   constants = gpu::Buffer(mapped(count, [&](std::size_t v) {
     const std::size_t begin = surface.neighbours.offsets[v], end = surface.neighbours.offsets[v + 1];
-    const Regression regression = regression_of(rest.edge.data() + begin, rest.edge.data() + end);
-    // Rows times edges have no unit of length left if the edges are in the unit of the posed positions.
-    for (std::size_t i = begin; i < end; ++i) rows[i] = glm::vec2(regression.inverse * rest.edge[i] * units.metres);
-    const glm::dmat2 kept = regression.mu * regression.inverse;
-    return GpuConstant{glm::vec4(kept[0][0], kept[0][1], kept[1][1], vertex_waves.wavelength[v] / units.metres),
-                       glm::vec4(vertex_waves.mask[v], vertex_waves.phase_noise[v], 0, 0)};
+    const glm::dmat2 inverse = regression_inverse(rest.edge.data() + begin, rest.edge.data() + end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const glm::dvec2 edge = rest.edge[i], row = inverse * edge;  // metres, 1/metres
+      rows[i] = glm::vec4(row * units.metres, edge / units.metres);
+    }
+    return glm::vec4(vertex_waves.wavelength[v] / units.metres, vertex_waves.mask[v], vertex_waves.phase_noise[v], 0);
   }));
   rest_rows = gpu::Buffer(rows);
 

@@ -68,12 +68,14 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   waves = vertex_waves(surface(), settings.wrinkles, wavelength());
   preroll_ = settings.model.loop ? animation.timeline().frame_count : 0;
 
-  bounds_ = animation.bounds();
+  const std::vector<glm::dvec3> samples = animation.samples();
+  bounds_ = bounds_of(samples);
   const auto rest_bounds = bounds_of(surface().rest);
   units.metres = passes::ModelUnits::unit_for(
       std::max(glm::distance(bounds_.low, bounds_.high), glm::distance(rest_bounds.low, rest_bounds.high)));
   units.world_centre = 0.5 * (bounds_.low + bounds_.high);
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
+  fit_camera(samples);
 
   Hash& hash = state_base_;
   hash.add(version).add(animation.timeline().frames_per_second).add(settings.model.loop);
@@ -142,17 +144,53 @@ std::vector<std::vector<passes::TextureLevel>> LoadedScene::texture_levels() con
   return all;
 }
 
+namespace {
+
+// Half the picture's width and height at distance 1. The film is 36 mm along the longer side of the picture.
+glm::dvec2 half_film(const SceneSettings& settings) {
+  const double aspect = static_cast<double>(settings.output.width) / settings.output.height;
+  const double half_long = 18.0 / settings.camera.focal_length;
+  return aspect >= 1 ? glm::dvec2(half_long, half_long / aspect) : glm::dvec2(half_long * aspect, half_long);
+}
+
+}  // namespace
+
+// Where no camera is given, or only its direction: the place nearest to the model from which every sampled point of the
+// clip is in the picture. In the camera's own axes a point (x, y) at depth z is seen where |x − s| ≤ (z + d) tan, so each
+// side of the picture is a plane that the points push outward.
+void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
+  CameraSettings& camera = settings.camera;
+  if (!camera.name.empty() || camera.explicit_pose) return;
+  const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
+  const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+  glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), toward);
+  right = glm::length(right) > 1e-6 ? glm::normalize(right) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 high = glm::cross(toward, right), centre = 0.5 * (bounds_.low + bounds_.high);
+  const glm::dvec2 tangent = half_film(settings) / camera.margin;
+  glm::dvec4 push(-INFINITY);  // right, left, up, down
+  double nearest = -INFINITY;
+  for (const glm::dvec3& point : samples) {
+    const glm::dvec3 d = point - centre;
+    const double x = glm::dot(d, right), y = glm::dot(d, high), z = glm::dot(d, toward);
+    push = glm::max(push, glm::dvec4(x + z * tangent.x, -x + z * tangent.x, y + z * tangent.y, -y + z * tangent.y));
+    nearest = std::max(nearest, z);
+  }
+  const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
+  double distance = camera.distance;
+  if (distance <= 0) {
+    distance = std::max({0.5 * (push[0] + push[1]) / tangent.x, 0.5 * (push[2] + push[3]) / tangent.y, nearest + 0.01 * radius});
+  }
+  camera.target = centre + 0.5 * (push[0] - push[1]) * right + 0.5 * (push[2] - push[3]) * high;
+  camera.eye = camera.target + distance * toward;
+  camera.explicit_pose = true;
+}
+
 passes::View LoadedScene::view(int frame) const {
   const CameraSettings& camera = settings.camera;
-  const double aspect = static_cast<double>(settings.output.width) / settings.output.height;
   const glm::dvec3 up(0, 1, 0), centre = 0.5 * (bounds_.low + bounds_.high);
   const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
-
-  // The film is 36 mm along the longer side of the picture.
-  const double half_long = 18.0 / camera.focal_length;
-  double tan_x = aspect >= 1 ? half_long : half_long * aspect, tan_y = tan_x / aspect;
-  glm::dvec3 eye, forward;
-  glm::dvec3 camera_up = up;
+  double tan_x = half_film(settings).x, tan_y = half_film(settings).y;
+  glm::dvec3 eye = camera.eye, forward = glm::normalize(camera.target - camera.eye), camera_up = up;
   if (!camera.name.empty()) {
     std::vector<std::string> names;
     int found = -1;
@@ -171,28 +209,7 @@ passes::View LoadedScene::view(int frame) const {
     forward = glm::normalize(-glm::dvec3(place[2]));
     camera_up = glm::normalize(glm::dvec3(place[1]));
     tan_y = std::tan(chosen.vertical_field_of_view / 2);
-    tan_x = tan_y * aspect;
-  } else if (camera.explicit_pose) {
-    eye = camera.eye;
-    forward = glm::normalize(camera.target - camera.eye);
-  } else {
-    const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
-    const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
-    forward = -toward;
-    double distance = camera.distance;
-    if (distance <= 0) {
-      // The nearest place from which every corner of the clip's bounds is in the picture.
-      const glm::dvec3 right = glm::normalize(glm::cross(forward, up)), high = glm::cross(right, forward);
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 x((corner & 1) ? bounds_.high.x : bounds_.low.x, (corner & 2) ? bounds_.high.y : bounds_.low.y,
-                           (corner & 4) ? bounds_.high.z : bounds_.low.z);
-        const glm::dvec3 d = x - centre;
-        const double needed = camera.margin * std::max(std::abs(glm::dot(d, right)) / tan_x, std::abs(glm::dot(d, high)) / tan_y);
-        distance = std::max(distance, needed - glm::dot(d, forward));
-      }
-      distance = std::max(distance, 1e-3 * radius);
-    }
-    eye = centre + distance * toward;
+    tan_x = tan_y * settings.output.width / settings.output.height;
   }
   if (std::abs(glm::dot(forward, camera_up)) > 0.9999) camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
 

@@ -20,7 +20,7 @@ class LoadedScene {
   // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
   explicit LoadedScene(const SceneSettings& settings);
 
-  SceneSettings settings;        // wavelength resolved
+  SceneSettings settings;        // wavelength and camera resolved
   io::Model model;
   Animation animation;
   RestFrames rest;
@@ -47,6 +47,7 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
+  void fit_camera(const std::vector<glm::dvec3>& samples);
   void extend(int step);
   int preroll_ = 0;
   Animation::Bounds bounds_;

@@ -63,6 +63,8 @@ CrushResult crush_vertex(const Matrix2d& M, double wavelength, double mask, cons
   result.gap = largest > 0 ? (largest - smallest) / (largest + smallest) : 0;
 
   result.minimum = svd.matrixV().col(1);
+  // As v₂ = (−sin θ, cos θ) with cos θ ≥ 0; then along the kept direction where there is one.
+  if (result.minimum.y() < 0) result.minimum = -result.minimum;
   if (previous.direction.dot(result.minimum) < 0) result.minimum = -result.minimum;
   result.direction = updated_direction(previous.direction, result.minimum, result.gap);
   result.wave_vector = wave_vector(M, result.direction);

@@ -104,12 +104,12 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
   const Vector3d position = waves.corners * fragment.barycentric;
   const Vector3d v = (scene.camera.eye - position).normalized();
 
-  // Which side is seen: the plane's normal, turned along n'.
+  // Which side is seen: the plane's normal, turned along the corners' normals.
   Vector3d plane = Vector3d(waves.corners.col(1) - waves.corners.col(0))
                        .cross(Vector3d(waves.corners.col(2) - waves.corners.col(0)));
   Vector3d normal = triangle.normals * fragment.barycentric;
   normal = normal.norm() > 0 ? normal.normalized() : plane.normalized();  // n'
-  if (plane.dot(normal) < 0) plane = -plane;
+  if (plane.dot(triangle.normals.rowwise().sum()) < 0) plane = -plane;
   const double side = plane.dot(v) < 0 ? -1 : 1;
   const Vector3d n_s = side * normal;
 

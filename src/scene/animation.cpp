@@ -370,29 +370,31 @@ glm::dmat4 Animation::node_matrix(int node, int frame) const {
   return world[static_cast<std::size_t>(node)];
 }
 
-Animation::Bounds Animation::bounds() const {
+std::vector<glm::dvec3> Animation::samples() const {
   // Enough for a camera's fit; its margin covers what lies between the samples.
   constexpr int most_frames = 200;
   constexpr std::size_t most_vertices = 5000;
   const Surface& surface = data_->surface;
   const int frames = data_->timeline.frame_count;
-  const int samples = std::min(frames, most_frames);
+  const int count = std::min(frames, most_frames);
   const std::size_t stride = (surface.vertex_count() + most_vertices - 1) / most_vertices;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{glm::dvec3{infinity}, glm::dvec3{-infinity}};
-  for (int s = 0; s < samples; ++s) {
-    const int frame = samples == 1 ? 1 : 1 + static_cast<int>(std::int64_t{s} * (frames - 1) / (samples - 1));
+  std::vector<glm::dvec3> points;
+  for (int s = 0; s < count; ++s) {
+    const int frame = count == 1 ? 1 : 1 + static_cast<int>(std::int64_t{s} * (frames - 1) / (count - 1));
     for (const glm::dvec3& position : posed(surface, data_->evaluate(frame), stride)) {
-      if (!finite(position)) continue;
-      bounds.low = glm::min(bounds.low, position);
-      bounds.high = glm::max(bounds.high, position);
+      if (finite(position)) points.push_back(position);
     }
   }
-  if (bounds.low.x > bounds.high.x)
-    for (const glm::dvec3& position : surface.rest) {
-      bounds.low = glm::min(bounds.low, position);
-      bounds.high = glm::max(bounds.high, position);
-    }
+  return points.empty() ? surface.rest : points;
+}
+
+Animation::Bounds Animation::bounds() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{glm::dvec3{infinity}, glm::dvec3{-infinity}};
+  for (const glm::dvec3& position : samples()) {
+    bounds.low = glm::min(bounds.low, position);
+    bounds.high = glm::max(bounds.high, position);
+  }
   return bounds;
 }
 

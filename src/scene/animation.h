@@ -55,6 +55,8 @@ class Animation {
   };
   // Over all frames of the clip (sampled for long clips and large meshes; deterministic).
   Bounds bounds() const;
+  // Posed points of the whole clip, metres: at most 5000 vertices of at most 200 frames, evenly picked.
+  std::vector<glm::dvec3> samples() const;
 
  private:
   struct Data;
