@@ -1,0 +1,23 @@
+// The parts of the benchmark, a table or two each. Each makes its own OpenGL context: frames are rendered by
+// the program's own `render`, which makes one too, and a process holds one at a time.
+#pragma once
+
+#include "benchmark/measure.h"
+#include "benchmark/report.h"
+#include "gpu/context.h"
+
+namespace plisse::benchmark {
+
+// CPU time says what a software renderer costs; on a GPU it is only the driver's, and the wall clock counts.
+inline Clock fair_clock(const gpu::Info& gl) {
+  return gl.software ? Clock::cpu : Clock::wall;
+}
+
+void measure_passes(Report& report, const Effort& effort);     // skin, crush, relax, render
+void measure_shading(Report& report, const Effort& effort);    // the wave shader against plain textured Phong
+void measure_plain_cpp(Report& report, const Effort& effort);  // crush and relax against plain C++
+void measure_png(Report& report, const Effort& effort);        // PNG against stb's own
+void measure_frames(Report& report, const Effort& effort);     // whole frames
+void measure_paper(Report& report, const Effort& effort);      // Tables 1 and 2 of Loviscach 2006
+
+}  // namespace plisse::benchmark

@@ -1,0 +1,80 @@
+// What is measured: a surface with its poses and its look, from a scene of assets/ or generated.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmark/measure.h"
+#include "gpu/target.h"
+#include "mesh/surface.h"
+#include "mesh/vertex_waves.h"
+#include "passes/crush.h"
+#include "passes/model_units.h"
+#include "passes/profile.h"
+#include "passes/relax.h"
+#include "passes/render.h"
+#include "passes/skin.h"
+#include "passes/surface_buffers.h"
+
+namespace plisse::benchmark {
+
+struct Subject {
+  std::string name;
+  Surface surface;
+  RestFrames rest;
+  VertexWaves waves;
+  passes::ModelUnits units;
+  std::vector<std::vector<glm::dmat4>> palettes;  // one a frame, in model units
+  passes::Look look;
+  passes::Profile profile;
+  std::vector<passes::DrawPart> parts;
+  std::vector<std::vector<passes::TextureLevel>> textures;
+  passes::View view;
+  double dead_zone = 0.005;
+
+  double vertices() const { return static_cast<double>(surface.vertex_count()); }
+};
+
+// A scene of assets/ ("shirt") at the effort's picture size.
+Subject scene_subject(const std::string& name, const Effort& effort);
+// A jittered grid in the unit square of about so many vertices, squeezed to 75 % along x and bent by four
+// bones.
+Subject grid_subject(const Effort& effort);
+
+// A subject on the GPU, stepped through its frames. Needs a current context.
+class Rig {
+ public:
+  explicit Rig(const Subject& subject);
+  // The next frame of the clip, which starts again at its end: skin, crush, relax; and as single passes.
+  void step();
+  void skin();
+  void crush();
+  void relax(int rounds, bool onset);
+  // To the middle of the clip, where the project's models are wrinkled most.
+  void step_to_middle();
+  void step_through_clip();
+
+  passes::SurfaceBuffers& surface() { return surface_; }
+
+ private:
+  const Subject& subject_;
+  passes::SurfaceBuffers surface_;
+  passes::SkinPass skin_;
+  passes::CrushPass crush_;
+  passes::RelaxPass relax_;
+  std::size_t frame_ = 0;
+  std::vector<double> no_morphs_;
+};
+
+// The scene's own look without ground, shadows and wireframe: the surface alone.
+passes::Look bare(passes::Look look);
+// Draws and averages the samples, and waits for it.
+void draw(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& target);
+// Pixels that the surface covers now.
+std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffers& surface,
+                           const passes::View& view, const gpu::Target& float_target);
+
+void finish();  // glFinish
+
+}  // namespace plisse::benchmark
