@@ -38,7 +38,8 @@ Wrinkle wrinkle_at(vec3 b) {
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
     vec3 fade = 1.0 - smoothstep(0.25, 0.5, turns_per_pixel);
     vec3 h = heights.xyz * fade;
-    vec2 a = texture(profile, tau.x).rg, e = texture(profile, tau.y).rg, g = texture(profile, tau.z).rg;
+    vec3 place = tau + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
+    vec2 a = texture(profile, place.x).rg, e = texture(profile, place.y).rg, g = texture(profile, place.z).rg;
     vec3 H = h * vec3(a.x, e.x, g.x);
     vec3 slope = (2.0 * pi) * h * vec3(a.y, e.y, g.y);
 
