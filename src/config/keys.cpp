@@ -177,7 +177,8 @@ const std::vector<Key>& keys() {
       {"shading", "colour", colour(shading(&ShadingSettings::colour)),
        "Colour where a material has neither texture nor colour."},
 
-      {"output", "path", frame_pattern(output(&OutputSettings::path)), "Where the frames go.", "--output",
+      {"output", "path", frame_pattern(output(&OutputSettings::path)),
+       "Where the frames go: a folder, or a PNG name with ####, %04d or {frame:04} in it.", "--output",
        "DIR|PATTERN"},
       {"output", "size", size(output(&OutputSettings::width), output(&OutputSettings::height)),
        "Width and height.", "--size", "WxH"},

@@ -54,7 +54,7 @@ double within(double value, const Range& range) {
 }
 
 std::string range_text(const Range& range) {
-  const std::string limits = fmt::format("{} … {}", range.low, range.high);
+  const std::string limits = fmt::format("{:g} … {:g}", range.low, range.high);
   return range.zero.empty() ? limits : fmt::format("{}; 0: {}", limits, range.zero);
 }
 

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <optional>
+#include <cstdint>
+#include <memory>
 #include <string_view>
 
 #include "base/error.h"
@@ -120,11 +121,16 @@ const std::vector<SceneOption>& scene_options() {
     bool camera = false;
     for (const Key& key : config::keys()) {
       if (key.table == "camera" && !std::exchange(camera, true)) {
-        options.push_back({"--camera", "CAMERA", fmt::format("The view: {}", camera_forms), key.table});
+        options.push_back({"--camera", "CAMERA", fmt::format("The view: {}.", camera_forms), key.table});
       }
       if (key.option.empty()) continue;
-      options.push_back({key.option, key.option_value, fmt::format("{} {}", key.doc, key.kind.allowed),
-                         key.table, key.kind.type == "names"});
+      const bool repeatable = key.kind.type == "names";
+      const bool told =
+          key.option_value.find('|') != std::string::npos;  // the value's name says what is allowed
+      const std::string help = repeatable ? key.doc + " May be given several times."
+                               : told     ? key.doc
+                                          : fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed);
+      options.push_back({key.option, key.option_value, help, key.table, repeatable});
     }
     return options;
   }();

@@ -235,7 +235,7 @@ std::string scene_text(const std::string& model_path, const std::map<std::string
     text += fmt::format("\n{}[{}]\n", commented(table.doc), table.name);
     for (const Key& key : config::keys()) {
       if (key.table != table.name) continue;
-      text += fmt::format("\n{}", commented(fmt::format("{} {}.", key.doc, key.kind.allowed)));
+      text += fmt::format("\n{}", commented(fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed)));
       if (const auto note = notes.find(key.table + "." + key.name); note != notes.end())
         text += commented(note->second);
       const bool matters = key.table == "model" && key.name == "path";

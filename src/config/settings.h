@@ -75,7 +75,7 @@ struct ShadingSettings {
   double cavity = 1.2;  // occlusion in the valleys; 1 is the groove's own, 0 off
   double parallax = 1;  // 0 off
   bool wireframe = false;
-  glm::vec3 colour{0.62F, 0.60F, 0.57F};  // sRGB, where a material has neither texture nor colour
+  glm::vec3 colour{0.48F, 0.56F, 0.67F};  // sRGB, where a material has neither texture nor colour
 };
 
 struct OutputSettings {

@@ -1,0 +1,135 @@
+#include "cli/arguments.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "cli/report.h"
+#include "config/options.h"
+#include "config/scene_file.h"
+#include "gpu/context.h"
+
+namespace plisse::cli {
+namespace {
+
+bool is_scene(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return CLI::detail::to_lower(extension) == ".toml";
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string_view word = text.substr(start, end - start);
+    if (column > 0 && column + 1 + word.size() > width) {
+      lines += '\n';
+      column = 0;
+    } else if (column > 0) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+    start = end + 1;
+  }
+  return lines;
+}
+
+int whole_number(const std::string& option, const std::string& text, int low, int high) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc{} || stop != end || value < low || value > high) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: '{}' is no whole number; allowed: {} … {}", option, text, low, high));
+  }
+  return value;
+}
+
+CommonArguments::CommonArguments(CLI::App& app) {
+  app.add_option("--threads", threads_, "Threads of the CPU to use at most")->type_name("N");
+  app.add_flag("-q,--quiet", quiet_, "Errors only");
+  app.add_flag("-v,--verbose", verbose_, "Say more on standard error");
+  app.add_option("--json", json_, "Write the report to a file, or to standard output for '-'")
+      ->type_name("FILE");
+}
+
+void CommonArguments::apply() {
+  if (quiet_ && verbose_) throw Error(ExitCode::bad_input, "--quiet and --verbose exclude each other");
+  log::set_level(quiet_ ? log::Level::quiet : verbose_ ? log::Level::verbose : log::Level::normal);
+  if (threads_.empty()) return;
+  const int threads = whole_number("--threads", threads_, 1, 1024);
+  thread_limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                        static_cast<std::size_t>(threads));
+}
+
+SceneArguments::SceneArguments(CLI::App& app, const Wanted& wanted) : app_(app) {
+  app.add_option(
+         "input", input_,
+         wrapped("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder"))
+      ->type_name("SCENE.toml|MODEL");
+  for (const SceneOption& option : scene_options()) {
+    if (!wanted(option.name)) continue;
+    Given& given = given_.emplace_back(Given{option.name, {}});
+    const std::string names = option.name == "--output" ? "-o,--output" : option.name;
+    auto* added = app.add_option(names, given.values, wrapped(option.help));
+    added->type_name(option.value)->group("[" + option.table + "], overriding the scene's keys");
+    // One value each time the option is given, so that "--only shirt model.glb" means what it looks like.
+    if (option.repeatable) {
+      added->allow_extra_args(false);
+    } else {
+      added->expected(1);
+    }
+  }
+}
+
+SceneSettings SceneArguments::settings() const {
+  if (input_.empty()) {
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", app_.get_name()));
+  }
+  SceneSettings scene = is_scene(input_) ? load_scene(input_) : bare_scene(input_);
+  GivenOptions options;
+  for (const Given& given : given_) {
+    if (!given.values.empty()) options.emplace_back(given.option, given.values);
+  }
+  apply_options(scene, options);
+  return scene;
+}
+
+DeviceArguments::DeviceArguments(CLI::App& app) {
+  app.add_option("--device", device_, "The device to draw with, as --list-devices numbers them")
+      ->type_name("N");
+  app.add_flag("--list-devices", list_, "List the devices and end");
+}
+
+void DeviceArguments::list() const {
+  std::string text;
+  for (const std::string& line : gpu::list_devices()) text += line + "\n";
+  write_stdout(text.empty() ? "EGL names no device\n" : text);
+}
+
+int DeviceArguments::device() const {
+  return device_.empty() ? -1 : whole_number("--device", device_, 0, 255);
+}
+
+FrameCallback frame_progress(Progress& progress) {
+  return [&progress](int done, int total, const FrameReport& frame) {
+    std::string what = frame.path.empty() ? fmt::format("frame {}", frame.frame) : frame.path;
+    if (!frame.error.empty()) what = fmt::format("frame {} failed: {}", frame.frame, frame.error);
+    if (frame.skipped) what += " (skipped)";
+    progress.update(done, total, what);
+  };
+}
+
+}  // namespace plisse::cli

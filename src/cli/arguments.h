@@ -1,0 +1,77 @@
+// Arguments that several commands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.h"
+#include "config/settings.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+
+// Lines of at most `width` letters, broken at spaces: CLI11 prints descriptions as they are.
+std::string wrapped(std::string_view text, std::size_t width = 76);
+
+// A whole number in low … high. Throws Error(bad_input) that names the option.
+int whole_number(const std::string& option, const std::string& text, int low, int high);
+
+// --threads, -q, -v, --json.
+class CommonArguments {
+ public:
+  explicit CommonArguments(CLI::App& app);
+  // Sets log level and thread limit; the limit holds as long as this object lives.
+  void apply();
+
+  bool quiet() const { return quiet_; }
+  const std::string& json() const { return json_; }
+  // Standard output is free for people unless the report goes there.
+  bool tables_wanted() const { return !quiet_ && json_ != "-"; }
+
+ private:
+  bool quiet_ = false, verbose_ = false;
+  std::string threads_, json_;
+  std::shared_ptr<void> thread_limit_;
+};
+
+// SCENE.toml|MODEL and those options that override a scene's keys of which `wanted` says so.
+class SceneArguments {
+ public:
+  using Wanted = std::function<bool(const std::string& option)>;
+  explicit SceneArguments(
+      CLI::App& app, const Wanted& wanted = [](const std::string&) { return true; });
+  // Reads the scene, or takes the defaults for a bare model, and applies the options.
+  SceneSettings settings() const;
+
+ private:
+  struct Given {
+    std::string option;
+    std::vector<std::string> values;
+  };
+  const CLI::App& app_;
+  std::string input_;
+  std::deque<Given> given_;  // a deque: CLI11 keeps references to its elements
+};
+
+// --device and --list-devices.
+class DeviceArguments {
+ public:
+  explicit DeviceArguments(CLI::App& app);
+  bool list_wanted() const { return list_; }
+  void list() const;
+  int device() const;  // −1: the first that works
+
+ private:
+  bool list_ = false;
+  std::string device_;
+};
+
+// Shows the frames of a run as they are done.
+FrameCallback frame_progress(Progress& progress);
+
+}  // namespace plisse::cli

@@ -1,0 +1,246 @@
+// plisse info: what is in a model file, for people as a table and for programs as JSON.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "io/import.h"
+#include "pipeline.h"
+#include "scene/animation.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Rates and frames of the clips are told at the default rate (docs/contract.md, "Frames, time, units").
+constexpr double default_frames_per_second = 24;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app)
+      : scene(app, [](const std::string& option) { return option == "--units" || option == "--up"; }),
+        common(app) {}
+
+  SceneArguments scene;
+  CommonArguments common;
+};
+
+int frame_count(double duration, double frames_per_second) {
+  return static_cast<int>(duration * frames_per_second + 1e-3) + 1;
+}
+
+ordered_json to_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Welded vertices of the part that came from this mesh; null where the mesh is not part of the surface.
+ordered_json welded_vertices(const Surface& surface, const io::Mesh& mesh) {
+  for (const Part& part : surface.parts) {
+    if (part.mesh != mesh.name || part.triangle_count != mesh.triangles.size() / 3) continue;
+    std::set<std::uint32_t> ids;
+    for (std::size_t i = 0; i < 3 * std::size_t{part.triangle_count}; ++i) {
+      const std::uint32_t vertex = surface.triangles[3 * std::size_t{part.first_triangle} + i];
+      ids.insert(surface.render_vertices[vertex].welded);
+    }
+    return ids.size();
+  }
+  return nullptr;
+}
+
+ordered_json meshes_of(const io::Model& model, const Surface& surface) {
+  ordered_json meshes = ordered_json::array();
+  for (const io::Mesh& mesh : model.meshes) {
+    meshes.push_back(
+        {{"name", mesh.name},
+         {"material", mesh.material < 0
+                          ? ordered_json(nullptr)
+                          : ordered_json(model.materials[static_cast<std::size_t>(mesh.material)].name)},
+         {"vertices", mesh.positions.size()},
+         {"welded", welded_vertices(surface, mesh)},
+         {"triangles", mesh.triangles.size() / 3},
+         {"bones", mesh.bones.size()},
+         {"max_influences", mesh.file_max_influences},
+         {"morphs", mesh.targets.size()},
+         {"uv", !mesh.uvs.empty()}});
+  }
+  return meshes;
+}
+
+ordered_json materials_of(const io::Model& model) {
+  ordered_json materials = ordered_json::array();
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    const io::Material& material = model.materials[i];
+    ordered_json users = ordered_json::array();
+    for (const io::Mesh& mesh : model.meshes) {
+      if (mesh.material == static_cast<int>(i)) users.push_back(mesh.name);
+    }
+    const char* const alpha = material.alpha == io::Material::Alpha::mask    ? "mask"
+                              : material.alpha == io::Material::Alpha::blend ? "blend"
+                                                                             : "opaque";
+    ordered_json texture = nullptr;
+    if (material.base_colour_texture >= 0) {
+      texture = model.textures[static_cast<std::size_t>(material.base_colour_texture)].name;
+    }
+    materials.push_back({{"name", material.name},
+                         {"meshes", users},
+                         {"texture", texture},
+                         {"alpha", alpha},
+                         {"two_sided", material.two_sided}});
+  }
+  return materials;
+}
+
+ordered_json clips_of(const io::Model& model) {
+  ordered_json clips = ordered_json::array();
+  for (const io::Clip& clip : model.clips) {
+    clips.push_back({{"name", clip.name},
+                     {"duration_s", clip.duration},
+                     {"channels", clip.channels.size()},
+                     {"frames", frame_count(clip.duration, default_frames_per_second)}});
+  }
+  return clips;
+}
+
+ordered_json to_json(const io::Model& model, const Animation& animation) {
+  ordered_json cameras = ordered_json::array(), textures = ordered_json::array();
+  for (const io::Camera& camera : model.cameras) {
+    cameras.push_back(
+        {{"name", camera.name}, {"vertical_field_of_view_deg", glm::degrees(camera.vertical_field_of_view)}});
+  }
+  for (const io::Texture& texture : model.textures) {
+    textures.push_back(
+        {{"name", texture.name}, {"width", texture.image.width}, {"height", texture.image.height}});
+  }
+  const Surface& surface = animation.surface();
+  const Animation::Bounds bounds = animation.bounds();
+  ordered_json sequence = nullptr;
+  if (!model.cache.frames.empty()) {
+    sequence = {{"frames", model.cache.frames.size()}, {"fps", model.cache.frames_per_second}};
+  }
+  return {{"path", model.path.string()},
+          {"meshes", meshes_of(model, surface)},
+          {"materials", materials_of(model)},
+          {"clips", clips_of(model)},
+          {"sequence", sequence},
+          {"cameras", cameras},
+          {"textures", textures},
+          {"vertices", {{"render", surface.render_vertices.size()}, {"welded", surface.vertex_count()}}},
+          {"triangles", surface.triangle_count()},
+          {"bounds", {{"low", to_json(bounds.low)}, {"high", to_json(bounds.high)}}},
+          {"units_m", model.metres_per_unit},
+          {"up", model.up},
+          {"wavelength_m", default_wavelength(surface)}};
+}
+
+// --- the table
+// -------------------------------------------------------------------------------------------------
+
+std::string name_of(const ordered_json& item) {
+  return item.is_null() ? "–" : item.get<std::string>();
+}
+
+// Letters on screen, not bytes: what fmt counts for its fields is right for UTF-8 only through string_view
+// width, so columns of names are padded here.
+std::string padded(const std::string& text, std::size_t width) {
+  const auto letters = static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return text + std::string(letters < width ? width - letters : 1, ' ');
+}
+
+std::string table(const ordered_json& info) {
+  const auto length = [](double metres) {
+    return metres < 0.1 ? fmt::format("{:.4g} mm", metres * 1000) : fmt::format("{:.4g} m", metres);
+  };
+  std::string text = fmt::format("{}\n", info["path"].get<std::string>());
+  text +=
+      fmt::format("  {} triangles, {} vertices, {} welded; wavelength {} unless chosen\n",
+                  info["triangles"].get<std::size_t>(), info["vertices"]["render"].get<std::size_t>(),
+                  info["vertices"]["welded"].get<std::size_t>(), length(info["wavelength_m"].get<double>()));
+  const auto low = info["bounds"]["low"].get<std::vector<double>>();
+  const auto high = info["bounds"]["high"].get<std::vector<double>>();
+  text += fmt::format(
+      "  {:.4g} × {:.4g} × {:.4g} m over the clip, from ({:.4g}, {:.4g}, {:.4g}); unit {:g} m, {} up\n",
+      high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
+      info["units_m"].get<double>(), info["up"].get<std::string>());
+
+  text +=
+      "\n" + padded("meshes", 32) + "  vertices    welded  triangles  bones  infl.  morphs  uv   material\n";
+  for (const ordered_json& mesh : info["meshes"]) {
+    const std::string welded =
+        mesh["welded"].is_null() ? "–" : std::to_string(mesh["welded"].get<std::size_t>());
+    text += padded("  " + mesh["name"].get<std::string>(), 32) +
+            fmt::format("{:>10}{:>10}{:>11}{:>7}{:>7}{:>8}  {}  {}\n", mesh["vertices"].get<std::size_t>(),
+                        welded, mesh["triangles"].get<std::size_t>(), mesh["bones"].get<std::size_t>(),
+                        mesh["max_influences"].get<int>(), mesh["morphs"].get<std::size_t>(),
+                        mesh["uv"].get<bool>() ? "yes" : "no ", name_of(mesh["material"]));
+  }
+  const auto section = [&](const char* title, const ordered_json& items, const auto& line) {
+    if (items.empty()) return;
+    text += fmt::format("\n{}\n", title);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      text += fmt::format("  {:>2}  {}\n", i, line(items[i]));
+    }
+  };
+  section("materials", info["materials"], [](const ordered_json& material) {
+    std::string meshes;
+    for (const ordered_json& mesh : material["meshes"])
+      meshes += (meshes.empty() ? "" : ", ") + mesh.get<std::string>();
+    return padded(material["name"].get<std::string>(), 28) +
+           fmt::format("{}, {}, texture {}; on {}", material["alpha"].get<std::string>(),
+                       material["two_sided"].get<bool>() ? "two-sided" : "single-sided",
+                       name_of(material["texture"]), meshes.empty() ? "nothing" : meshes);
+  });
+  section("clips", info["clips"], [](const ordered_json& clip) {
+    return padded(clip["name"].get<std::string>(), 28) +
+           fmt::format("{:.3f} s, {} frames at {:g} fps, {} channels", clip["duration_s"].get<double>(),
+                       clip["frames"].get<int>(), default_frames_per_second,
+                       clip["channels"].get<std::size_t>());
+  });
+  if (!info["sequence"].is_null()) {
+    text += fmt::format("\nsequence\n      {} frames at {:g} fps\n",
+                        info["sequence"]["frames"].get<std::size_t>(), info["sequence"]["fps"].get<double>());
+  }
+  section("cameras", info["cameras"], [](const ordered_json& camera) {
+    return padded(camera["name"].get<std::string>(), 28) +
+           fmt::format("{:.4g}° from bottom to top", camera["vertical_field_of_view_deg"].get<double>());
+  });
+  section("textures", info["textures"], [](const ordered_json& texture) {
+    return padded(texture["name"].get<std::string>(), 28) +
+           fmt::format("{} × {}", texture["width"].get<int>(), texture["height"].get<int>());
+  });
+  return text;
+}
+
+int run_info(Arguments& arguments) {
+  arguments.common.apply();
+  const SceneSettings scene = arguments.scene.settings();
+  io::ImportOptions options;
+  if (scene.model.metres_per_unit > 0) options.metres_per_unit = scene.model.metres_per_unit;
+  options.up = scene.model.up;
+  const io::Model model = io::import_model(scene.model.path, options);
+  const Animation animation(model, {});
+  const ordered_json report = to_json(model, animation);
+  if (arguments.common.tables_wanted()) write_stdout(table(report));
+  write_report(report, arguments.common.json());
+  return 0;
+}
+
+}  // namespace
+
+Command add_info(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("info", "Tell what is in a model: meshes, materials, clips, cameras, textures");
+  app->footer("\nThe names of meshes and materials are those that --only and --exclude take.");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_info(*arguments); }};
+}
+
+}  // namespace plisse::cli

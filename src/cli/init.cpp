@@ -1,0 +1,140 @@
+// plisse init: a commented scene file for a model, which renders as the bare model does.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/scene_file.h"
+#include "io/import.h"
+#include "pipeline.h"
+#include "scene/animation.h"
+
+namespace plisse::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app) : common(app) {
+    app.add_option("model", model,
+                   wrapped("A model: a file, a numbered sequence (drape_####.obj) or its folder"))
+        ->type_name("MODEL");
+    app.add_option("-o,--output", output,
+                   "The scene file to write; by default the model's name with .toml, here")
+        ->type_name("SCENE.toml");
+    app.add_flag("--overwrite", overwrite, "Replace a scene file that exists");
+    app.add_flag("--keys-markdown", keys_markdown, "")
+        ->group("");  // makes docs/scene.md; of no use to anybody else
+  }
+
+  CommonArguments common;
+  std::string model, output;
+  bool overwrite = false, keys_markdown = false;
+};
+
+// "models/Fox.glb" → "Fox.toml", "run/drape_####.obj" → "drape.toml", "run/" → "run.toml".
+fs::path default_output(const std::string& model) {
+  fs::path name = fs::path(model).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  std::string stem = name.stem().string();
+  stem = stem.substr(0, stem.find_first_of("#%{"));
+  while (!stem.empty() && std::string("_-. ").find(stem.back()) != std::string::npos) stem.pop_back();
+  return (stem.empty() ? "scene" : stem) + ".toml";
+}
+
+// The way from the scene's folder to the model; the absolute path where there is none.
+std::string path_from_scene(const fs::path& model, const fs::path& scene) {
+  std::error_code failure;
+  const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
+  const fs::path relative = fs::relative(model, folder, failure);
+  return (failure || relative.empty() ? fs::absolute(model) : relative).generic_string();
+}
+
+// A name in quotes, without what a TOML comment must not hold.
+std::string in_quotes(const std::string& name) {
+  std::string text = ordered_json(name).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  for (char& c : text) c = c == '\x7f' ? '?' : c;
+  return text;
+}
+
+template <typename Items, typename Describe>
+std::string listed(const char* what, const Items& items, const Describe& describe) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) text += (i == 0 ? "" : ", ") + describe(i, items[i]);
+  return fmt::format("{} here: {}.", what, text);
+}
+
+// What this model has to choose from, beside the keys that choose.
+std::map<std::string, std::string> notes_on(const io::Model& model) {
+  std::map<std::string, std::string> notes;
+  const Animation animation(model, {});
+  const auto named = [](std::size_t, const auto& item) { return in_quotes(item.name); };
+  const auto numbered = [](std::size_t i, const auto& item) {
+    return fmt::format("{} {}", i, in_quotes(item.name));
+  };
+  if (!model.clips.empty()) notes["model.clip"] = listed("Clips", model.clips, numbered);
+  if (!model.cameras.empty()) notes["camera.name"] = listed("Cameras", model.cameras, numbered);
+  notes["wrinkles.only"] = listed("Meshes", model.meshes, named);
+  if (!model.materials.empty()) notes["wrinkles.only"] += "\n" + listed("Materials", model.materials, named);
+  notes["model.frames"] = fmt::format("Frames here: 1 to {}.", animation.timeline().frame_count);
+  notes["wrinkles.wavelength"] =
+      fmt::format("From the mesh it is {:.4g} here.", default_wavelength(animation.surface()));
+  return notes;
+}
+
+int run_init(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.keys_markdown) {
+    write_stdout(scene_reference_markdown());
+    return 0;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  if (arguments.model.empty()) {
+    throw Error(ExitCode::bad_input, "plisse init: give a MODEL; see 'plisse init --help'");
+  }
+  const fs::path scene =
+      arguments.output.empty() ? default_output(arguments.model) : fs::path(arguments.output);
+  if (CLI::detail::to_lower(scene.extension().string()) != ".toml") {
+    throw Error(ExitCode::bad_input,
+                fmt::format("--output: '{}' is no scene file; end it in .toml", scene.string()));
+  }
+  std::error_code ignored;
+  if (!arguments.overwrite && fs::exists(scene, ignored)) {
+    throw Error(ExitCode::no_output,
+                fmt::format("{}: stands there already; --overwrite replaces it", scene.string()));
+  }
+  const io::Model model = io::import_model(arguments.model);
+  const std::string text = scene_text(path_from_scene(arguments.model, scene), notes_on(model));
+  parse_scene(text, scene);  // a name that TOML cannot hold is to fail here, not at the next command
+  write_whole_file(scene, text);
+
+  if (arguments.common.tables_wanted()) write_stdout(fmt::format("{}\n", scene.string()));
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  write_report({{"outputs", {{{"path", scene.string()}, {"kind", "scene"}}}}, {"wall_s", wall.count()}},
+               arguments.common.json());
+  return 0;
+}
+
+}  // namespace
+
+Command add_init(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("init", "Write a commented scene file for a model");
+  app->footer("\nThe scene renders as the bare model does; every key stands in it with its default.");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_init(*arguments); }};
+}
+
+}  // namespace plisse::cli

@@ -1,0 +1,157 @@
+// plisse render: a scene or model becomes PNG frames.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/suggest.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+const std::vector<std::string> all_aovs = {"height",    "normal",  "amplitude", "phase",
+                                           "direction", "tension", "depth"};
+
+struct Arguments {
+  explicit Arguments(CLI::App& app) : scene(app), device(app), common(app) {
+    app.add_option("--aov", aovs,
+                   wrapped(fmt::format("Pictures of data beside each frame, as EXR and PNG: any of {}, "
+                                       "with commas",
+                                       fmt::join(all_aovs, ", "))))
+        ->type_name("NAMES")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--state", state,
+                   wrapped("Keep the waves' memory in this file, so that a later run goes on from it"))
+        ->type_name("FILE");
+    app.add_flag("--skip-existing", skip_existing,
+                 wrapped("Leave frames as they are whose file is whole and came from the same input"));
+    app.add_flag("--overwrite", overwrite, "Write all frames anew; this is the default");
+    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
+  }
+
+  RenderRequest request() const {
+    for (const std::string& aov : aovs) {
+      if (std::find(all_aovs.begin(), all_aovs.end(), aov) != all_aovs.end()) continue;
+      throw Error(ExitCode::bad_input, fmt::format("--aov: '{}' is unknown; allowed: {}{}", aov,
+                                                   fmt::join(all_aovs, ", "), did_you_mean(aov, all_aovs)));
+    }
+    if (skip_existing && overwrite) {
+      throw Error(ExitCode::bad_input, "--skip-existing and --overwrite exclude each other");
+    }
+    RenderRequest request;
+    request.scene = scene.settings();
+    request.skip_existing = skip_existing;
+    request.state_file = state;
+    for (const std::string& aov : all_aovs) {  // each once, in one order, however they were asked for
+      if (std::find(aovs.begin(), aovs.end(), aov) != aovs.end()) request.aovs.push_back(aov);
+    }
+    request.device = device.device();
+    request.shader_folder = shaders;
+    return request;
+  }
+
+  SceneArguments scene;
+  DeviceArguments device;
+  CommonArguments common;
+  std::vector<std::string> aovs;
+  std::string state, shaders;
+  bool skip_existing = false, overwrite = false;
+};
+
+ordered_json to_json(const FrameReport& frame) {
+  ordered_json ms = ordered_json::object();
+  for (const char* stage : {"skin", "crush", "relax", "render", "readback", "encode", "write"}) {
+    if (const auto found = frame.ms.find(stage); found != frame.ms.end()) ms[stage] = found->second;
+  }
+  for (const auto& [stage, time] : frame.ms) ms[stage] = time;
+  ordered_json json = {{"frame", frame.frame},
+                       {"time_s", frame.time_s},
+                       {"path", frame.path},
+                       {"ms", ms},
+                       {"skipped", frame.skipped}};
+  if (!frame.error.empty()) json["error"] = frame.error;
+  return json;
+}
+
+ordered_json to_json(const RenderReport& report) {
+  ordered_json frames = ordered_json::array();
+  for (const FrameReport& frame : report.frames) frames.push_back(to_json(frame));
+  return {{"gl", cli::to_json(report.gl)},
+          {"vertices", {{"render", report.render_vertices}, {"welded", report.welded_vertices}}},
+          {"triangles", report.triangles},
+          {"wavelength_m", report.wavelength_m},
+          {"timer", report.timer},
+          {"frames", frames},
+          {"fps", report.fps},
+          {"wall_s", report.wall_s},
+          {"skipped", report.skipped},
+          {"interrupted", report.interrupted}};
+}
+
+// Says how it went; returns how many frames failed.
+int summarise(const RenderReport& report, const std::string& where) {
+  int failed = 0, skipped = 0;
+  for (const FrameReport& frame : report.frames) {
+    skipped += frame.skipped ? 1 : 0;
+    if (!frame.error.empty() && ++failed <= 10)
+      log::warn(fmt::format("frame {}: {}", frame.frame, frame.error));
+  }
+  const int written = static_cast<int>(report.frames.size()) - skipped - failed;
+  log::notice(fmt::format("{} frame{} in {:.2f} s ({:.1f} fps){}{} → {}", written, written == 1 ? "" : "s",
+                          report.wall_s, report.fps, skipped > 0 ? fmt::format(", {} skipped", skipped) : "",
+                          failed > 0 ? fmt::format(", {} failed", failed) : "", where));
+  return failed;
+}
+
+int run_render(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.device.list_wanted()) {
+    arguments.device.list();
+    return 0;
+  }
+  const RenderRequest request = arguments.request();
+  install_interrupt_handlers();
+
+  RenderReport report;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    report = render(request, frame_progress(progress));
+  }
+  const int failed = summarise(report, request.scene.output.path);
+  write_report(to_json(report), arguments.common.json());
+  if (report.interrupted) {
+    log::notice("interrupted; the frames written so far are whole");
+    return 128 + signal_number();
+  }
+  return static_cast<int>(failed > 0 ? ExitCode::some_frames : ExitCode::fine);
+}
+
+}  // namespace
+
+Command add_render(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("render", "Render a scene or a model to PNG frames");
+  app->footer(
+      "\nplisse render Fox.glb                              every frame, camera and wavelength fitted, into "
+      "frames/\n"
+      "plisse render scene.toml --frames 1-48x2 -o out_####.png\n"
+      "plisse render shirt.fbx --wavelength \"12 mm\" --exclude Face --camera 30,10,85");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_render(*arguments); }};
+}
+
+}  // namespace plisse::cli

@@ -1,0 +1,124 @@
+// plisse verify: the shaders against the reference in double precision, pass by pass.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app)
+      : scene(app, [](const std::string& option) { return option != "--output"; }), device(app), common(app) {
+    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
+  }
+
+  SceneArguments scene;
+  DeviceArguments device;
+  CommonArguments common;
+  std::string shaders;
+};
+
+// "crush.r" stands with "crush", and the passes stand in the order they run in.
+std::vector<std::string> pass_order(const VerifyReport& report) {
+  constexpr std::array<std::string_view, 4> order = {"skin", "crush", "relax", "render"};
+  const auto rank = [&](const std::string& name) {
+    return std::find(order.begin(), order.end(), std::string_view(name).substr(0, name.find('.'))) -
+           order.begin();
+  };
+  std::vector<std::string> names;
+  for (const auto& [name, comparison] : report.passes) names.push_back(name);
+  std::stable_sort(names.begin(), names.end(),
+                   [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  return names;
+}
+
+ordered_json to_json(const VerifyReport& report) {
+  ordered_json passes = ordered_json::object();
+  for (const std::string& name : pass_order(report)) {
+    const PassComparison& pass = report.passes.at(name);
+    passes[name] = {{"max_abs", pass.max_abs},
+                    {"rms", pass.rms},
+                    {"tolerance", pass.tolerance},
+                    {"ok", pass.ok},
+                    {"unit", pass.unit}};
+  }
+  passes["render"]["fraction_within_4"] = report.fraction_within_4;
+  passes["render"]["mean_flip"] = report.mean_flip;
+  passes["render"]["silhouette_fraction"] = report.silhouette_fraction;
+  return {{"ok", report.ok},
+          {"gl", cli::to_json(report.gl)},
+          {"frames", report.frames},
+          {"passes", passes},
+          {"chain", {{"phase_rms", report.chain_phase_rms}, {"image_flip", report.chain_image_flip}}},
+          {"failures", report.failures}};
+}
+
+std::string table(const VerifyReport& report) {
+  std::string text = fmt::format("{} ({})\nframes {}\n\n", report.gl.renderer, report.gl.version,
+                                 fmt::join(report.frames, ", "));
+  text += fmt::format("{:<20} {:>11} {:>11} {:>11}\n", "pass", "max", "rms", "tolerance");
+  for (const std::string& name : pass_order(report)) {
+    const PassComparison& pass = report.passes.at(name);
+    text += fmt::format("{:<20} {:>11.3e} {:>11.3e} {:>11.3e}  {:<6} {}\n", name, pass.max_abs, pass.rms,
+                        pass.tolerance, pass.ok ? "ok" : "FAILED", pass.unit);
+  }
+  text += fmt::format(
+      "\nimage: {:.3f} % of pixels within 4/255, mean FLIP {:.5f}, silhouettes {:.3f} % of pixels\n",
+      100 * report.fraction_within_4, report.mean_flip, 100 * report.silhouette_fraction);
+  text += fmt::format("chain: phase rms {:.3e} rad, image FLIP {:.5f}\n", report.chain_phase_rms,
+                      report.chain_image_flip);
+  for (const std::string& failure : report.failures) text += failure + "\n";
+  return text + (report.ok ? "ok\n" : "FAILED\n");
+}
+
+int run_verify(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.device.list_wanted()) {
+    arguments.device.list();
+    return 0;
+  }
+  RenderRequest request;
+  request.scene = arguments.scene.settings();
+  request.device = arguments.device.device();
+  request.shader_folder = arguments.shaders;
+  install_interrupt_handlers();
+
+  VerifyReport report;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    report = verify(request, frame_progress(progress));
+  }
+  if (arguments.common.tables_wanted()) write_stdout(table(report));
+  write_report(to_json(report), arguments.common.json());
+  if (interrupted()) return 128 + signal_number();
+  return static_cast<int>(report.ok ? ExitCode::fine : ExitCode::check_failed);
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("verify", "Compare the shaders with the reference, pass by pass");
+  app->footer(
+      "\nWithout --frames at most eight frames spread over the clip. Exit code 1 where a tolerance is "
+      "exceeded.");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_verify(*arguments); }};
+}
+
+}  // namespace plisse::cli

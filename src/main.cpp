@@ -1,0 +1,34 @@
+// argv → command → exit code; last-chance error text.
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "base/error.h"
+#include "cli/command.h"
+
+namespace {
+
+int fail(plisse::ExitCode code, const char* text) {
+  std::fprintf(stderr, "error: %s\n", text);
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of writing with a text and a code, not a signal
+  try {
+    return plisse::cli::run(argc, argv);
+  } catch (const plisse::Error& error) {
+    return fail(error.code, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(plisse::ExitCode::try_again,
+                "memory is exhausted; try again with fewer threads or a smaller picture");
+  } catch (const std::exception& error) {
+    return fail(plisse::ExitCode::bad_input, error.what());
+  } catch (...) {
+    return fail(plisse::ExitCode::bad_input, "an unknown exception ended the run");
+  }
+}
