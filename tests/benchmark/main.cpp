@@ -88,7 +88,7 @@ void describe_machine(Report& report) {
 int run(int argc, char** argv) {
   CLI::App app("What plisse's passes cost, against Phong, plain C++, stb and the paper's tables");
   bool smoke = false;
-  std::string json;
+  std::string json, shaders;
   std::vector<std::string> only;
   std::vector<std::string> names;
   for (const Section& section : sections) names.emplace_back(section.name);
@@ -99,6 +99,9 @@ int run(int argc, char** argv) {
   app.add_option("--only", only, fmt::format("of {}", fmt::join(names, ", ")))
       ->delimiter(',')
       ->check(CLI::IsMember(names));
+  app.add_option("--compare-shaders", shaders,
+                 "instead of all that: each pass with the shaders of this folder against the built-in ones")
+      ->check(CLI::ExistingDirectory);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -110,7 +113,9 @@ int run(int argc, char** argv) {
 
   Report report;
   describe_machine(report);
+  if (!shaders.empty()) compare_shaders(report, effort, shaders);
   for (const Section& section : sections) {
+    if (!shaders.empty()) break;
     if (!only.empty() && std::find(only.begin(), only.end(), section.name) == only.end()) continue;
     log::notice(fmt::format("measuring: {}", section.name));
     section.measure(report, effort);

@@ -2,6 +2,8 @@
 // the program's own `render`, which makes one too, and a process holds one at a time.
 #pragma once
 
+#include <string>
+
 #include "benchmark/measure.h"
 #include "benchmark/report.h"
 #include "gpu/context.h"
@@ -19,5 +21,8 @@ void measure_plain_cpp(Report& report, const Effort& effort);  // crush and rela
 void measure_png(Report& report, const Effort& effort);        // PNG against stb's own
 void measure_frames(Report& report, const Effort& effort);     // whole frames
 void measure_paper(Report& report, const Effort& effort);      // Tables 1 and 2 of Loviscach 2006
+
+// For those who tune a shader: every pass with the shaders of a folder against the built-in ones.
+void compare_shaders(Report& report, const Effort& effort, const std::string& folder);
 
 }  // namespace plisse::benchmark

@@ -115,12 +115,12 @@ Subject grid_subject(const Effort& effort) {
   return subject;
 }
 
-Rig::Rig(const Subject& subject)
+Rig::Rig(const Subject& subject, const std::string& shader_folder)
     : subject_(subject),
       surface_(subject.surface, subject.rest, subject.waves, subject.units, 1),
-      skin_(subject.palettes.front().size(), subject.surface.target_count, ""),
-      crush_(""),
-      relax_(""),
+      skin_(subject.palettes.front().size(), subject.surface.target_count, shader_folder),
+      crush_(shader_folder),
+      relax_(shader_folder),
       no_morphs_(subject.surface.target_count, 0.0) {
   step();
 }

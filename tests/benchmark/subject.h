@@ -45,7 +45,8 @@ Subject grid_subject(const Effort& effort);
 // A subject on the GPU, stepped through its frames. Needs a current context.
 class Rig {
  public:
-  explicit Rig(const Subject& subject);
+  // shader_folder: in place of the built-in shaders, unless it is empty.
+  explicit Rig(const Subject& subject, const std::string& shader_folder = "");
   // The next frame of the clip, which starts again at its end: skin, crush, relax; and as single passes.
   void step();
   void skin();
