@@ -9,9 +9,9 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
-#include <regex>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -63,13 +63,16 @@ Space space_of_collada(const std::filesystem::path& path) {
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
   Space space;
-  std::smatch match;
-  static const std::regex up(R"(<up_axis>\s*([XYZ])_UP\s*</up_axis>)");
-  static const std::regex unit(R"re(<unit\b[^>]*\bmeter\s*=\s*["']\s*([0-9.eE+-]+))re");
-  if (std::regex_search(head, match, up))
-    space.up = std::string(1, static_cast<char>(std::tolower(match.str(1)[0])));
-  if (std::regex_search(head, match, unit)) {
-    const double metres = std::atof(match.str(1).c_str());
+  if (const std::size_t up = head.find("<up_axis>"); up != std::string::npos) {
+    const std::size_t axis = head.find_first_of("XYZ<", up + 1);
+    if (head.compare(axis + 1, 3, "_UP") == 0)
+      space.up = std::string(1, static_cast<char>(head[axis] - 'A' + 'a'));
+  }
+  const std::size_t unit = head.find("<unit");
+  const std::size_t meter = head.find("meter", unit);
+  if (unit != std::string::npos && meter < head.find('>', unit)) {
+    const std::size_t value = head.find_first_of("0123456789.", meter);
+    const double metres = value == std::string::npos ? 0 : std::atof(head.c_str() + value);
     if (metres > 0 && std::isfinite(metres)) space.metres_per_unit = metres;
   }
   return space;

@@ -1,4 +1,5 @@
-// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear (import_gltf_modes.h mends it).
+// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear (import_gltf_modes.h
+// mends it).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,8 +31,8 @@ Keys<Value> read_keys(const Key* source, unsigned count, double ticks_per_second
   return keys;
 }
 
-// FBX calls the channel "node*index"; the others by the node's name. The weights may be with the node's holder of meshes
-// (hang_meshes), which bears the same name below it.
+// FBX calls the channel "node*index"; the others by the node's name. The weights may be with the node's
+// holder of meshes (hang_meshes), which bears the same name below it.
 int node_of_morph(const AssimpScene& from, const Model& model, const std::string& name) {
   auto found = from.node_ids.find(name);
   if (found == from.node_ids.end()) found = from.node_ids.find(name.substr(0, name.find_last_of('*')));
@@ -39,7 +40,8 @@ int node_of_morph(const AssimpScene& from, const Model& model, const std::string
   const int id = found->second;
   if (!model.nodes[static_cast<std::size_t>(id)].morph_weights.empty()) return id;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
-    if (model.nodes[n].parent == id && model.nodes[n].name == found->first && !model.nodes[n].morph_weights.empty())
+    if (model.nodes[n].parent == id && model.nodes[n].name == found->first &&
+        !model.nodes[n].morph_weights.empty())
       return static_cast<int>(n);
   return id;
 }

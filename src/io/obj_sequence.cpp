@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
+#include <string_view>
+#include <tuple>
 
 #include "base/error.h"
 #include "io/import_obj.h"
@@ -34,15 +36,33 @@ struct Pattern {
   }
 };
 
+// The digits between `from` and `to` of a spelled-out hole, as in %04d: "04" is 4, nothing is 1.
+std::optional<std::size_t> width_in(const std::string& name, std::size_t from, std::size_t to) {
+  if (from == to) return 1;
+  std::size_t width = 0;
+  const char* last = name.data() + to;
+  const auto [end, error] = std::from_chars(name.data() + from, last, width);
+  if (error != std::errc{} || end != last || width > 18) return std::nullopt;
+  return width;
+}
+
 std::optional<Pattern> parse_pattern(const std::string& name) {
-  static const std::regex holes(R"((#+)|%(?:0(\d))?d|\{frame(?::0?(\d))?\})");
-  std::smatch match;
-  if (!std::regex_search(name, match, holes)) return std::nullopt;
-  Pattern pattern{match.prefix(), match.suffix(), 1};
-  if (match[1].matched) pattern.digits = static_cast<std::size_t>(match[1].length());
-  if (match[2].matched) pattern.digits = std::stoul(match[2]);
-  if (match[3].matched) pattern.digits = std::stoul(match[3]);
-  return pattern;
+  if (const std::size_t hash = name.find('#'); hash != std::string::npos) {
+    const std::size_t end = std::min(name.find_first_not_of('#', hash), name.size());
+    return Pattern{name.substr(0, hash), name.substr(end), end - hash};
+  }
+  const auto spelled = [&](std::string_view opening, std::string_view closing) -> std::optional<Pattern> {
+    const std::size_t start = name.find(opening);
+    if (start == std::string::npos) return std::nullopt;
+    const std::size_t end = name.find(closing, start + opening.size());
+    if (end == std::string::npos) return std::nullopt;
+    const std::optional<std::size_t> width = width_in(name, start + opening.size(), end);
+    if (!width) return std::nullopt;
+    return Pattern{name.substr(0, start), name.substr(end + closing.size()), *width};
+  };
+  if (auto pattern = spelled("%", "d")) return pattern;
+  if (auto pattern = spelled("{frame:", "}")) return pattern;
+  return spelled("{frame", "}");
 }
 
 // The number in `name` where it fits the pattern.

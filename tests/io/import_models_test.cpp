@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 
 #include "base/error.h"
@@ -183,6 +185,34 @@ TEST_F(Models, StandUprightAndInMetres) {
   const io::Model turned = io::import_model(data() / "models" / "box_nested_animation.dae", {0.01, "y"});
   const Animation::Bounds small = bounds_of(Animation(turned, {}).surface().rest);
   EXPECT_NEAR(diagonal(small), 0.02 * std::sqrt(3.0), 1e-6);
+}
+
+// The same COLLADA file with another unit and up axis in its head.
+TEST_F(Models, ColladaUnitsAndUpAxis) {
+  std::ifstream stream(data() / "models" / "box_nested_animation.dae");
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    ASSERT_NE(text.find(old), std::string::npos);
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace(R"(<unit name="meter" meter="1"/>)", R"(<unit meter="0.01" name="centimeter"/>)");
+  replace("Z_UP", "Y_UP");
+  const fs::path path = fs::temp_directory_path() / fmt::format("plisse_unit_{}.dae", ::getpid());
+  std::ofstream(path) << text;
+  const auto rest = [&](const fs::path& file, const io::ImportOptions& options) {
+    const io::Model model = io::import_model(file, options);
+    return Animation(model, {}).surface().rest;
+  };
+  const std::vector<glm::dvec3> metres = rest(data() / "models" / "box_nested_animation.dae", {{}, "y"});
+  const std::vector<glm::dvec3> centimetres = rest(path, {});
+  const std::vector<glm::dvec3> inches = rest(path, {0.0254, ""});
+  fs::remove(path);
+  ASSERT_EQ(metres.size(), centimetres.size());
+  for (std::size_t v = 0; v < metres.size(); ++v) {
+    // assimp holds the unit in single precision.
+    EXPECT_NEAR(glm::distance(centimetres[v], 0.01 * metres[v]), 0, 1e-7);
+    EXPECT_NEAR(glm::distance(inches[v], 0.0254 * metres[v]), 0, 1e-7);
+  }
 }
 
 aiMatrix4x4 world_of(const aiNode* node) {
