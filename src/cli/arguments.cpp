@@ -24,26 +24,6 @@ bool is_scene(const std::string& path) {
 
 }  // namespace
 
-std::string wrapped(std::string_view text, std::size_t width) {
-  std::string lines;
-  std::size_t column = 0;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string_view word = text.substr(start, end - start);
-    if (column > 0 && column + 1 + word.size() > width) {
-      lines += '\n';
-      column = 0;
-    } else if (column > 0) {
-      lines += ' ';
-      ++column;
-    }
-    lines += word;
-    column += word.size();
-    start = end + 1;
-  }
-  return lines;
-}
-
 int whole_number(const std::string& option, const std::string& text, int low, int high) {
   int value = 0;
   const char* const end = text.data() + text.size();
@@ -75,20 +55,16 @@ void CommonArguments::apply() {
 SceneArguments::SceneArguments(CLI::App& app, const Wanted& wanted) : app_(app) {
   app.add_option(
          "input", input_,
-         wrapped("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder"))
+         described("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder"))
       ->type_name("SCENE.toml|MODEL");
   for (const SceneOption& option : scene_options()) {
     if (!wanted(option.name)) continue;
     Given& given = given_.emplace_back(Given{option.name, {}});
     const std::string names = option.name == "--output" ? "-o,--output" : option.name;
-    auto* added = app.add_option(names, given.values, wrapped(option.help));
+    auto* added = app.add_option(names, given.values, described(option.help));
     added->type_name(option.value)->group("[" + option.table + "], overriding the scene's keys");
     // One value each time the option is given, so that "--only shirt model.glb" means what it looks like.
-    if (option.repeatable) {
-      added->allow_extra_args(false);
-    } else {
-      added->expected(1);
-    }
+    added->allow_extra_args(false);
   }
 }
 

@@ -10,13 +10,16 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "base/text.h"
 #include "config/settings.h"
 #include "pipeline.h"
 
 namespace plisse::cli {
 
-// Lines of at most `width` letters, broken at spaces: CLI11 prints descriptions as they are.
-std::string wrapped(std::string_view text, std::size_t width = 76);
+// A description for --help: CLI11 prints it as it is, beside a column for the options.
+inline std::string described(std::string_view text) {
+  return wrapped(text, 76);
+}
 
 // A whole number in low … high. Throws Error(bad_input) that names the option.
 int whole_number(const std::string& option, const std::string& text, int low, int high);

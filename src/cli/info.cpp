@@ -147,12 +147,11 @@ std::string name_of(const ordered_json& item) {
   return item.is_null() ? "–" : item.get<std::string>();
 }
 
-// Letters on screen, not bytes: what fmt counts for its fields is right for UTF-8 only through string_view
-// width, so columns of names are padded here.
-std::string padded(const std::string& text, std::size_t width) {
-  const auto letters = static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-  return text + std::string(letters < width ? width - letters : 1, ' ');
+// Two more than the longest name, so that columns stand.
+std::size_t name_width(const ordered_json& items) {
+  std::size_t width = 16;
+  for (const ordered_json& item : items) width = std::max(width, letters(item["name"].get<std::string>()));
+  return width + 2;
 }
 
 std::string table(const ordered_json& info) {
@@ -171,12 +170,12 @@ std::string table(const ordered_json& info) {
       high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
       info["units_m"].get<double>(), info["up"].get<std::string>());
 
-  text +=
-      "\n" + padded("meshes", 32) + "  vertices    welded  triangles  bones  infl.  morphs  uv   material\n";
+  text += "\n" + padded("meshes", name_width(info["meshes"]) + 2) +
+          "  vertices    welded  triangles  bones  infl.  morphs  uv   material\n";
   for (const ordered_json& mesh : info["meshes"]) {
     const std::string welded =
         mesh["welded"].is_null() ? "–" : std::to_string(mesh["welded"].get<std::size_t>());
-    text += padded("  " + mesh["name"].get<std::string>(), 32) +
+    text += padded("  " + mesh["name"].get<std::string>(), name_width(info["meshes"]) + 2) +
             fmt::format("{:>10}{:>10}{:>11}{:>7}{:>7}{:>8}  {}  {}\n", mesh["vertices"].get<std::size_t>(),
                         welded, mesh["triangles"].get<std::size_t>(), mesh["bones"].get<std::size_t>(),
                         mesh["max_influences"].get<int>(), mesh["morphs"].get<std::size_t>(),
@@ -185,21 +184,22 @@ std::string table(const ordered_json& info) {
   const auto section = [&](const char* title, const ordered_json& items, const auto& line) {
     if (items.empty()) return;
     text += fmt::format("\n{}\n", title);
+    const std::size_t width = name_width(items);
     for (std::size_t i = 0; i < items.size(); ++i) {
-      text += fmt::format("  {:>2}  {}\n", i, line(items[i]));
+      text += fmt::format("  {:>2}  {}\n", i, line(items[i], width));
     }
   };
-  section("materials", info["materials"], [](const ordered_json& material) {
+  section("materials", info["materials"], [](const ordered_json& material, std::size_t width) {
     std::string meshes;
     for (const ordered_json& mesh : material["meshes"])
       meshes += (meshes.empty() ? "" : ", ") + mesh.get<std::string>();
-    return padded(material["name"].get<std::string>(), 28) +
+    return padded(material["name"].get<std::string>(), width) +
            fmt::format("{}, {}, texture {}; on {}", material["alpha"].get<std::string>(),
                        material["two_sided"].get<bool>() ? "two-sided" : "single-sided",
                        name_of(material["texture"]), meshes.empty() ? "nothing" : meshes);
   });
-  section("clips", info["clips"], [](const ordered_json& clip) {
-    return padded(clip["name"].get<std::string>(), 28) +
+  section("clips", info["clips"], [](const ordered_json& clip, std::size_t width) {
+    return padded(clip["name"].get<std::string>(), width) +
            fmt::format("{:.3f} s, {} frames at {:g} fps, {} channels", clip["duration_s"].get<double>(),
                        clip["frames"].get<int>(), default_frames_per_second,
                        clip["channels"].get<std::size_t>());
@@ -208,12 +208,12 @@ std::string table(const ordered_json& info) {
     text += fmt::format("\nsequence\n      {} frames at {:g} fps\n",
                         info["sequence"]["frames"].get<std::size_t>(), info["sequence"]["fps"].get<double>());
   }
-  section("cameras", info["cameras"], [](const ordered_json& camera) {
-    return padded(camera["name"].get<std::string>(), 28) +
+  section("cameras", info["cameras"], [](const ordered_json& camera, std::size_t width) {
+    return padded(camera["name"].get<std::string>(), width) +
            fmt::format("{:.4g}° from bottom to top", camera["vertical_field_of_view_deg"].get<double>());
   });
-  section("textures", info["textures"], [](const ordered_json& texture) {
-    return padded(texture["name"].get<std::string>(), 28) +
+  section("textures", info["textures"], [](const ordered_json& texture, std::size_t width) {
+    return padded(texture["name"].get<std::string>(), width) +
            fmt::format("{} × {}", texture["width"].get<int>(), texture["height"].get<int>());
   });
   return text;

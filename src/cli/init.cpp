@@ -30,7 +30,7 @@ using nlohmann::ordered_json;
 struct Arguments {
   explicit Arguments(CLI::App& app) : common(app) {
     app.add_option("model", model,
-                   wrapped("A model: a file, a numbered sequence (drape_####.obj) or its folder"))
+                   described("A model: a file, a numbered sequence (drape_####.obj) or its folder"))
         ->type_name("MODEL");
     app.add_option("-o,--output", output,
                    "The scene file to write; by default the model's name with .toml, here")
@@ -73,8 +73,10 @@ std::string in_quotes(const std::string& name) {
 template <typename Items, typename Describe>
 std::string listed(const char* what, const Items& items, const Describe& describe) {
   std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) text += (i == 0 ? "" : ", ") + describe(i, items[i]);
-  return fmt::format("{} here: {}.", what, text);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].name.empty()) text += (text.empty() ? "" : ", ") + describe(i, items[i]);
+  }
+  return text.empty() ? "" : fmt::format("{} here: {}.", what, text);
 }
 
 // What this model has to choose from, beside the keys that choose.
@@ -85,13 +87,13 @@ std::map<std::string, std::string> notes_on(const io::Model& model) {
   const auto numbered = [](std::size_t i, const auto& item) {
     return fmt::format("{} {}", i, in_quotes(item.name));
   };
-  if (!model.clips.empty()) notes["model.clip"] = listed("Clips", model.clips, numbered);
-  if (!model.cameras.empty()) notes["camera.name"] = listed("Cameras", model.cameras, numbered);
+  notes["model.clip"] = listed("Clips", model.clips, numbered);
+  notes["camera.name"] = listed("Cameras", model.cameras, numbered);
   notes["wrinkles.only"] = listed("Meshes", model.meshes, named);
-  if (!model.materials.empty()) notes["wrinkles.only"] += "\n" + listed("Materials", model.materials, named);
+  notes["wrinkles.exclude"] = listed("Materials", model.materials, named);
   notes["model.frames"] = fmt::format("Frames here: 1 to {}.", animation.timeline().frame_count);
   notes["wrinkles.wavelength"] =
-      fmt::format("From the mesh it is {:.4g} here.", default_wavelength(animation.surface()));
+      fmt::format("From this mesh: {:.4g}.", default_wavelength(animation.surface()));
   return notes;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
-#include "config/suggest.h"
 #include "pipeline.h"
 
 namespace plisse::cli {
@@ -22,34 +20,25 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const std::vector<std::string> all_aovs = {"height",    "normal",  "amplitude", "phase",
-                                           "direction", "tension", "depth"};
-
 struct Arguments {
   explicit Arguments(CLI::App& app) : scene(app), device(app), common(app) {
     app.add_option("--aov", aovs,
-                   wrapped(fmt::format("Pictures of data beside each frame, as EXR and PNG: any of {}, "
-                                       "with commas",
-                                       fmt::join(all_aovs, ", "))))
+                   described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
+                             "phase, direction, tension, depth, or several with commas"))
         ->type_name("NAMES")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--state", state,
-                   wrapped("Keep the waves' memory in this file, so that a later run goes on from it"))
+                   described("Keep the waves' memory in this file, so that a later run goes on from it"))
         ->type_name("FILE");
     app.add_flag("--skip-existing", skip_existing,
-                 wrapped("Leave frames as they are whose file is whole and came from the same input"));
+                 described("Leave frames as they are whose file is whole and came from the same input"));
     app.add_flag("--overwrite", overwrite, "Write all frames anew; this is the default");
     app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
   }
 
   RenderRequest request() const {
-    for (const std::string& aov : aovs) {
-      if (std::find(all_aovs.begin(), all_aovs.end(), aov) != all_aovs.end()) continue;
-      throw Error(ExitCode::bad_input, fmt::format("--aov: '{}' is unknown; allowed: {}{}", aov,
-                                                   fmt::join(all_aovs, ", "), did_you_mean(aov, all_aovs)));
-    }
     if (skip_existing && overwrite) {
       throw Error(ExitCode::bad_input, "--skip-existing and --overwrite exclude each other");
     }
@@ -57,9 +46,7 @@ struct Arguments {
     request.scene = scene.settings();
     request.skip_existing = skip_existing;
     request.state_file = state;
-    for (const std::string& aov : all_aovs) {  // each once, in one order, however they were asked for
-      if (std::find(aovs.begin(), aovs.end(), aov) != aovs.end()) request.aovs.push_back(aov);
-    }
+    request.aovs = aovs;
     request.device = device.device();
     request.shader_folder = shaders;
     return request;
@@ -72,6 +59,11 @@ struct Arguments {
   std::string state, shaders;
   bool skip_existing = false, overwrite = false;
 };
+
+// An interrupted run leaves the reports of the frames after it empty.
+bool was_reached(const FrameReport& frame) {
+  return frame.frame > 0;
+}
 
 ordered_json to_json(const FrameReport& frame) {
   ordered_json ms = ordered_json::object();
@@ -90,7 +82,9 @@ ordered_json to_json(const FrameReport& frame) {
 
 ordered_json to_json(const RenderReport& report) {
   ordered_json frames = ordered_json::array();
-  for (const FrameReport& frame : report.frames) frames.push_back(to_json(frame));
+  for (const FrameReport& frame : report.frames) {
+    if (was_reached(frame)) frames.push_back(to_json(frame));
+  }
   return {{"gl", cli::to_json(report.gl)},
           {"vertices", {{"render", report.render_vertices}, {"welded", report.welded_vertices}}},
           {"triangles", report.triangles},
@@ -105,13 +99,14 @@ ordered_json to_json(const RenderReport& report) {
 
 // Says how it went; returns how many frames failed.
 int summarise(const RenderReport& report, const std::string& where) {
-  int failed = 0, skipped = 0;
+  int reached = 0, failed = 0, skipped = 0;
   for (const FrameReport& frame : report.frames) {
+    reached += was_reached(frame) ? 1 : 0;
     skipped += frame.skipped ? 1 : 0;
     if (!frame.error.empty() && ++failed <= 10)
       log::warn(fmt::format("frame {}: {}", frame.frame, frame.error));
   }
-  const int written = static_cast<int>(report.frames.size()) - skipped - failed;
+  const int written = reached - skipped - failed;
   log::notice(fmt::format("{} frame{} in {:.2f} s ({:.1f} fps){}{} → {}", written, written == 1 ? "" : "s",
                           report.wall_s, report.fps, skipped > 0 ? fmt::format(", {} skipped", skipped) : "",
                           failed > 0 ? fmt::format(", {} failed", failed) : "", where));

@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view grammar =
-    "frames are written like 7, 1-48, 1-48x2, 5..20, or several with commas: 1-48x2,60";
-
 std::string_view trimmed(std::string_view text) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
@@ -39,7 +36,7 @@ std::optional<int> counting_number(std::string_view text) {
 
 FrameRange parse_range(std::string_view part) {
   const auto wrong = [&](std::string_view what) {
-    return Error(ExitCode::bad_input, fmt::format("frames '{}': {}; {}", part, what, grammar));
+    return Error(ExitCode::bad_input, fmt::format("frames '{}': {}", part, what));
   };
   std::string_view range = part;
   FrameRange result;

@@ -47,7 +47,16 @@ std::unique_ptr<toml::node> as_toml(const std::string& text, bool textual) {
   return std::make_unique<toml::value<std::string>>(text);
 }
 
+bool takes_several(const Key& key) {
+  return key.kind.type == "names";
+}
+
+void expect_one(const std::vector<std::string>& texts) {
+  if (texts.size() > 1) throw Problem{fmt::format("given {} times", texts.size()), ""};
+}
+
 void set(SceneSettings& scene, const Key& key, const std::vector<std::string>& texts) {
+  if (!takes_several(key)) expect_one(texts);
   if (texts.size() == 1) {
     key.kind.set(scene, *as_toml(texts.front(), key.kind.textual), {});
     return;
@@ -124,13 +133,12 @@ const std::vector<SceneOption>& scene_options() {
         options.push_back({"--camera", "CAMERA", fmt::format("The view: {}.", camera_forms), key.table});
       }
       if (key.option.empty()) continue;
-      const bool repeatable = key.kind.type == "names";
       const bool told =
           key.option_value.find('|') != std::string::npos;  // the value's name says what is allowed
-      const std::string help = repeatable ? key.doc + " May be given several times."
-                               : told     ? key.doc
-                                          : fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed);
-      options.push_back({key.option, key.option_value, help, key.table, repeatable});
+      const std::string help = takes_several(key) ? key.doc + " May be given several times."
+                               : told             ? key.doc
+                                                  : fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed);
+      options.push_back({key.option, key.option_value, help, key.table});
     }
     return options;
   }();
@@ -146,7 +154,8 @@ void apply_options(SceneSettings& scene, const GivenOptions& options) {
   for (const auto& [option, texts] : options) {
     if (option == "--camera") {
       try {
-        set_camera_option(scene, texts.back());
+        expect_one(texts);
+        set_camera_option(scene, texts.front());
       } catch (const Problem& problem) {
         complain(option, problem, camera_forms);
       }

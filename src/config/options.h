@@ -14,7 +14,6 @@ struct SceneOption {
   std::string value;  // "L", for --help
   std::string help;
   std::string table;  // the scene's table it belongs to
-  bool repeatable = false;
 };
 const std::vector<SceneOption>& scene_options();
 

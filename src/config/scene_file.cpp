@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "config/keys.h"
 #include "config/suggest.h"
 
@@ -158,9 +159,10 @@ void read_table(const std::string& table, const toml::table& values, const fs::p
   }
 }
 
-std::string commented(std::string_view text) {
+// As comments, in lines that fit beside code.
+std::string commented(const std::string& text) {
   std::string lines = "# ";
-  for (const char c : text) lines += c == '\n' ? "\n# " : std::string(1, c);
+  for (const char c : wrapped(text, 108)) lines += c == '\n' ? "\n# " : std::string(1, c);
   return lines + "\n";
 }
 
@@ -236,8 +238,8 @@ std::string scene_text(const std::string& model_path, const std::map<std::string
     for (const Key& key : config::keys()) {
       if (key.table != table.name) continue;
       text += fmt::format("\n{}", commented(fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed)));
-      if (const auto note = notes.find(key.table + "." + key.name); note != notes.end())
-        text += commented(note->second);
+      const auto note = notes.find(key.table + "." + key.name);
+      if (note != notes.end() && !note->second.empty()) text += commented(note->second);
       const bool matters = key.table == "model" && key.name == "path";
       text += fmt::format("{}{} = {}\n", matters ? "" : "#", key.name, key.kind.show(scene));
     }

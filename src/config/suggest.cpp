@@ -40,7 +40,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     const std::size_t limit = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
-    if (distance > limit || (!best.empty() && distance >= best_distance)) continue;
+    if (distance > limit || distance >= word.size() || (!best.empty() && distance >= best_distance)) continue;
     best = candidate;
     best_distance = distance;
   }
