@@ -37,7 +37,7 @@ std::pair<int, std::string> failure(Function&& function) {
 }
 
 TEST_F(Gpu, ContextSaysWhatItIs) {
-  const Info& info = test::shared_context()->info();
+  const Info& info = context()->info();
   EXPECT_FALSE(info.vendor.empty());
   EXPECT_FALSE(info.renderer.empty());
   EXPECT_THAT(info.path, HasSubstr("EGL"));
@@ -258,7 +258,7 @@ TEST_F(Gpu, FloatTargetsKeepFloats) {
 }
 
 TEST_F(Gpu, TimerCountsEachStage) {
-  StageTimer timer(test::shared_context()->info().software);
+  StageTimer timer(context()->info().software);
   Buffer buffer(1 << 22);
   for (int i = 0; i < 2; ++i) {
     timer.begin("fill");

@@ -8,6 +8,7 @@ namespace plisse::test {
 namespace {
 
 std::string problem;
+std::unique_ptr<gpu::Context> suite_context;
 
 std::unique_ptr<gpu::Context> try_context() {
   try {
@@ -21,18 +22,25 @@ std::unique_ptr<gpu::Context> try_context() {
 
 }  // namespace
 
-const gpu::Context* shared_context() {
-  static const std::unique_ptr<gpu::Context> context = try_context();
-  return context.get();
+bool opengl_works() {
+  static const bool works = try_context() != nullptr;
+  return works;
 }
 
 const std::string& opengl_problem() {
   return problem;
 }
 
-bool opengl_works() {
-  static const bool works = try_context() != nullptr;
-  return works;
+void OpenGlTest::SetUpTestSuite() {
+  if (opengl_works()) suite_context = try_context();
+}
+
+void OpenGlTest::TearDownTestSuite() {
+  suite_context.reset();
+}
+
+const gpu::Context* OpenGlTest::context() {
+  return suite_context.get();
 }
 
 }  // namespace plisse::test

@@ -8,24 +8,26 @@
 
 namespace plisse::test {
 
-// The process's context, current on the main thread; null where there is no usable OpenGL, with the reason in
-// `opengl_problem`.
-const gpu::Context* shared_context();
+// Whether a context can be made; if not, why.
+bool opengl_works();
 const std::string& opengl_problem();
 
-// Whether a context can be made, without keeping one: for tests of what makes its own.
-bool opengl_works();
-
-// Holds the shared context and fails a test that leaves a GL error behind.
+// A context of its own for each suite of tests, current on the main thread; fails a test that leaves a GL
+// error behind.
 class OpenGlTest : public ::testing::Test {
+ public:
+  static void SetUpTestSuite();
+  static void TearDownTestSuite();
+
  protected:
   void SetUp() override {
-    if (!shared_context()) GTEST_SKIP() << opengl_problem();
+    if (!context()) GTEST_SKIP() << opengl_problem();
   }
   void TearDown() override {
-    if (!shared_context()) return;
+    if (!context()) return;
     EXPECT_NO_THROW(gpu::check("after the test"));
   }
+  static const gpu::Context* context();  // null where there is no usable OpenGL
 };
 
 // Skips where no context can be made.

@@ -87,7 +87,7 @@ void Passes::relax(const passes::RelaxOptions& options) {
   relax_.run(buffers, options);
 }
 
-Readings Passes::read() const {
+Readings read(const passes::SurfaceBuffers& buffers) {
   Readings now;
   const auto positions = buffers.positions.read<glm::vec4>(), frames = buffers.frames.read<glm::vec4>();
   const auto waves = buffers.waves.read<glm::vec4>(), world = buffers.world_waves.read<glm::vec4>();

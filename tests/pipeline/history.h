@@ -1,0 +1,23 @@
+// A scene stepped in order and looked at between.
+#pragma once
+
+#include "gpu/timer.h"
+#include "pipeline/loaded_scene.h"
+#include "pipeline/stepper.h"
+#include "support/sheets.h"
+
+namespace plisse::pipeline {
+
+// Needs a current context.
+struct History {
+  explicit History(const SceneSettings& settings) : scene(settings), timer(true), stepper(scene, timer, "") {}
+  test::Readings at(int frame) {
+    stepper.advance_to(scene.step_of_frame(frame));
+    return test::read(stepper.surface());
+  }
+  LoadedScene scene;
+  gpu::StageTimer timer;
+  Stepper stepper;
+};
+
+}  // namespace plisse::pipeline
