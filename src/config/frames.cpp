@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <regex>
 #include <set>
 
 #include "base/error.h"
@@ -69,16 +68,45 @@ struct Place {
   int width = 0;  // digits at least
 };
 
-std::optional<Place> find_place(const std::string& name) {
-  static const std::regex places(R"((#+)|%(?:0(\d{1,2}))?d|\{frame(?::0?(\d{1,2}))?\})");
-  std::smatch match;
-  if (!std::regex_search(name, match, places)) return std::nullopt;
-  Place place{match.prefix(), match.suffix(), 0};
-  if (match[1].matched) place.width = static_cast<int>(match[1].length());
-  for (const std::size_t digits : {std::size_t{2}, std::size_t{3}}) {
-    if (match[digits].matched) place.width = std::stoi(match[digits].str());
+// A place for the number that starts at `start`: ####, %d, %04d, {frame} or {frame:04}.
+std::optional<Place> place_at(const std::string& name, std::size_t start) {
+  std::size_t at = start;
+  const auto take = [&](std::string_view token) {
+    const bool there = std::string_view(name).substr(at).starts_with(token);
+    if (there) at += token.size();
+    return there;
+  };
+  const auto take_width =
+      [&] {  // of at most two digits, so that no pattern asks for names no file system takes
+        int width = 0;
+        for (int digits = 0; digits < 2 && at < name.size() && name[at] >= '0' && name[at] <= '9'; ++digits) {
+          width = 10 * width + (name[at++] - '0');
+        }
+        return width;
+      };
+  int width = 0;
+  if (take("#")) {
+    for (width = 1; take("#");) ++width;
+  } else if (take("%")) {
+    if (take("0")) width = take_width();
+    if (!take("d")) return std::nullopt;
+  } else if (take("{frame")) {
+    if (take(":")) {
+      take("0");
+      width = take_width();
+    }
+    if (!take("}")) return std::nullopt;
+  } else {
+    return std::nullopt;
   }
-  return place;
+  return Place{name.substr(0, start), name.substr(at), width};
+}
+
+std::optional<Place> find_place(const std::string& name) {
+  for (std::size_t start = 0; start < name.size(); ++start) {
+    if (const auto place = place_at(name, start)) return place;
+  }
+  return std::nullopt;
 }
 
 bool is_png(const std::string& name) {
