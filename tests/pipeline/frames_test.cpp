@@ -48,6 +48,12 @@ struct Variant {
   bool loop;
   int interval;
 };
+std::string name_of(const Variant& variant) {
+  return (variant.loop ? "LoopInterval" : "OnceInterval") + std::to_string(variant.interval);
+}
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << name_of(variant);
+}
 class FrameIdentity : public Frames, public ::testing::WithParamInterface<Variant> {};
 
 TEST_P(FrameIdentity, AloneInChunksAndInAWholeRun) {
@@ -69,10 +75,7 @@ TEST_P(FrameIdentity, AloneInChunksAndInAWholeRun) {
 INSTANTIATE_TEST_SUITE_P(Sleeve, FrameIdentity,
                          ::testing::Values(Variant{false, 1}, Variant{false, 3}, Variant{true, 1},
                                            Variant{true, 3}),
-                         [](const auto& variant) {
-                           return std::string(variant.param.loop ? "Loop" : "Once") + "Interval" +
-                                  std::to_string(variant.param.interval);
-                         });
+                         [](const auto& variant) { return name_of(variant.param); });
 
 TEST_F(Frames, AStateFileGoesOnWhereItStopped) {
   const TemporaryFolder whole, parts;

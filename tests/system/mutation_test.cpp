@@ -1,0 +1,67 @@
+// Verify must be able to fail: with one number of a shader altered, it has to notice and name the pass.
+#include <gmock/gmock.h>
+
+#include "system/plisse.h"
+
+namespace plisse::test {
+namespace {
+
+struct Mutation {
+  std::string name, file, from, to, pass;
+};
+void PrintTo(const Mutation& mutation, std::ostream* out) {
+  *out << mutation.name;
+}
+
+class Mutations : public Program, public ::testing::WithParamInterface<Mutation> {};
+
+TEST_P(Mutations, AreNoticed) {
+  const Mutation& mutation = GetParam();
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", folder / "shaders",
+                        std::filesystem::copy_options::recursive);
+  if (!mutation.file.empty()) {
+    const auto path = folder / ("shaders/" + mutation.file);
+    std::string text = read_text(path);
+    const std::size_t at = text.find(mutation.from);
+    ASSERT_NE(at, std::string::npos) << mutation.file << " has no '" << mutation.from
+                                     << "' any more: mend this test";
+    text.replace(at, mutation.from.size(), mutation.to);
+    write_text(path, text);
+  }
+  const std::string report = (folder / "report.json").string();
+  const Outcome outcome = plisse({"verify", asset("sleeve.toml").string(), "--size", "96x80", "--frames",
+                                  "10,40", "--shaders", (folder / "shaders").string(), "--json", report});
+  const auto json = nlohmann::json::parse(read_text(report));
+  if (mutation.file.empty()) {
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    return;
+  }
+  EXPECT_EQ(outcome.code, 1) << outcome.out << outcome.err;
+  EXPECT_EQ(json["ok"], false);
+  EXPECT_GE(json["failures"].size(), 1U);
+  // Each pass is fed the shader's own inputs, so the others stand.
+  for (const std::string pass : {"skin", "crush", "relax", "render"}) {
+    EXPECT_EQ(json["passes"][pass]["ok"], pass != mutation.pass) << pass;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, Mutations,
+    ::testing::Values(
+        Mutation{"Nothing", "", "", "", ""},
+        Mutation{"SkinWeight", "skin.comp", "weight * palette[entry];", "1.0001 * weight * palette[entry];",
+                 "skin"},
+        Mutation{"CrushHeight", "crush.comp", "0.25 * sqrt", "0.2501 * sqrt", "crush"},
+        Mutation{"CrushDirection", "crush.comp", "vec2 v2 = vec2(-v1.y, v1.x);",
+                 "vec2 v2 = vec2(-v1.y, 1.01 * v1.x);", "crush"},
+        Mutation{"RelaxMiddle", "relax.comp", "0.5 * (positions[n]", "0.51 * (positions[n]", "relax"},
+        Mutation{"RelaxSign", "relax.comp", "? -1.0 : 1.0;", "? 1.0 : 1.0;", "relax"},
+        Mutation{"RenderSlope", "render.frag", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},
+        Mutation{"RenderPhase", "render.vert", "(0.5 / pi)", "(0.55 / pi)", "render"},
+        Mutation{"RenderLight", "common/shading.glsl", "0.6 + 0.4 *", "0.6 + 0.6 *", "render"},
+        Mutation{"RenderShoulder", "common/shading.glsl", "0.04 + 0.96", "0.24 + 0.96", "render"}),
+    [](const auto& mutation) { return mutation.param.name; });
+
+}  // namespace
+}  // namespace plisse::test
