@@ -39,8 +39,8 @@ std::string progress_bar(int done, int total, double seconds, int columns) {
   const int cells = std::clamp(columns - static_cast<int>(numbers.size()) - 2, 0, 40);
   std::string text;
   if (cells >= 5) {
-    const auto full =
-        static_cast<int>(static_cast<long long>(cells) * std::clamp(done, 0, total) / std::max(total, 1));
+    const long long all = std::max(total, 1);
+    const auto full = static_cast<int>(cells * std::clamp<long long>(done, 0, all) / all);
     text = fmt::format("[{}{}{}]", std::string(static_cast<std::size_t>(full), '='), full < cells ? ">" : "",
                        std::string(static_cast<std::size_t>(std::max(cells - full - 1, 0)), ' '));
   }
