@@ -120,7 +120,10 @@ int run_init(Arguments& arguments) {
   }
   const io::Model model = io::import_model(arguments.model);
   const std::string text = scene_text(path_from_scene(arguments.model, scene), notes_on(model));
-  parse_scene(text, scene);  // a name that TOML cannot hold is to fail here, not at the next command
+  // A name that TOML cannot hold is to fail here, not at the next command. The model is looked up through the
+  // scene's folder; where that cannot be made, writing says why.
+  if (scene.has_parent_path()) fs::create_directories(scene.parent_path(), ignored);
+  if (!ignored) parse_scene(text, scene);
   write_whole_file(scene, text);
 
   if (arguments.common.tables_wanted()) write_stdout(fmt::format("{}\n", scene.string()));

@@ -184,6 +184,7 @@ TEST_F(Program, InitDoesNotReplaceAScene) {
   EXPECT_EQ(run({"init", model(), "-o", path("mine.txt")}).code, 2);
   EXPECT_EQ(run({"init", path("none.obj"), "-o", path("none.toml")}).code, 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.toml"));
+  EXPECT_EQ(run({"init", model(), "-o", path("cloth.obj/x.toml")}).code, 5);
 }
 
 TEST_F(Program, InitMakesTheReference) {
