@@ -3,9 +3,12 @@
 #include "common/items.glsl"
 #include "common/surface.glsl"
 
-layout(std430, binding = 4) readonly buffer RestRows { vec4 rest_rows[]; };  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
-layout(std430, binding = 6) buffer States { vec4 states[]; };                // k in (t, b); 1 − r; g
-layout(std430, binding = 9) buffer Counter { uint fresh_count; };
+layout(binding = 17) uniform samplerBuffer rest_rows;  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
+layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
+layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
+layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
+layout(std430, binding = 3) writeonly buffer Phases { vec2 phases_out[]; };
+layout(std430, binding = 4) buffer Counter { uint fresh_count; };
 uniform uint vertex_count;
 uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
@@ -16,15 +19,16 @@ const float isotropy = 0.01;           // g below which a direction means little
 void main() {
     uint v = item_index();
     if (v >= vertex_count) return;
-    Constant constant = constants[v];
-    vec3 x = positions[v].xyz, n = frames[v].normal.xyz, t = frames[v].tangent.xyz, b = cross(n, t);
+    vec4 fixed_here = constant(v);
+    vec3 x = position(v), n = frame_normal(v), t = frame_tangent(v), b = cross(n, t);
 
     // M = (Σ v'⊗v + μE)(S + μE)⁻¹ = E + Σ (v' − v)⊗(S + μE)⁻¹v, its rows in m0 and m1: errors are then in proportion to the
     // deformation, however slender the triangles.
     vec2 m0 = vec2(1.0, 0.0), m1 = vec2(0.0, 1.0);
-    for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
-        vec3 e = positions[neighbours[i]].xyz - x;
-        vec4 rest = rest_rows[i];
+    uint end = offset(v + 1u);
+    for (uint i = offset(v); i < end; ++i) {
+        vec3 e = position(neighbour(i)) - x;
+        vec4 rest = texelFetch(rest_rows, int(i));
         m0 += (dot(t, e) - rest.z) * rest.xy;
         m1 += (dot(b, e) - rest.w) * rest.xy;
     }
@@ -48,7 +52,7 @@ void main() {
     float g = squares > 0.0 ? (sigma1 - sigma2) * (sigma1 + sigma2) / squares : 0.0;
 
     // k is taken whole the first time, then follows with the certainty of the new direction (contract, "Direction").
-    vec2 k = states[v].xy;
+    vec2 k = state(v).xy;
     bool has_direction = dot(k, k) > 0.0;
     if (!has_direction && g > isotropy) {
         k = v2;
@@ -62,12 +66,12 @@ void main() {
     vec2 u2 = determinant < 0.0 ? vec2(u1.y, -u1.x) : vec2(-u1.y, u1.x);
     vec2 direction = u1 * dot(v1, k) / max(sigma1, floor_of_r) + u2 * dot(v2, k) / max(sigma2, floor_of_r);
 
-    float W = constant.modifiers.x, mask = constant.modifiers.y, s = 1.0 - r;
+    float W = fixed_here.x, mask = fixed_here.y, s = 1.0 - r;
     float h_in_W = 0.25 * sqrt(max(s * (1.0 + r), 0.0)) * smoothstep(0.5 * dead_zone, dead_zone, s) * mask;
     float weight = clamp((h_in_W - 0.0125) / 0.0625, 0.0, 1.0);
     vec2 wavenumber = direction / W;
 
-    float status = phases[v].y;
+    float status = phase(v).y;
     if (always_set) {
         status = set;
     } else {
@@ -77,8 +81,8 @@ void main() {
         if (status == fresh) atomicAdd(fresh_count, 1u);
     }
 
-    states[v] = vec4(k, s, g);
-    waves[v] = vec4(wavenumber, h_in_W * W, weight);
-    world_waves[v] = vec4(wavenumber.x * t + wavenumber.y * b, weight);
-    phases[v].y = status;
+    states_out[v] = vec4(k, s, g);
+    waves_out[v] = vec4(wavenumber, h_in_W * W, weight);
+    world_waves_out[v] = vec4(wavenumber.x * t + wavenumber.y * b, weight);
+    phases_out[v].y = status;
 }

@@ -1,16 +1,9 @@
 // Positions alone: for depth maps and wireframes.
 #include "common/surface.glsl"
-struct RenderVertex {
-    vec4 normal;
-    vec2 uv;
-    vec2 unused;
-};
-layout(std430, binding = 4) readonly buffer RenderVertices { RenderVertex render_vertices[]; };
-layout(std430, binding = 6) readonly buffer Triangles { uint triangles[]; };
+layout(binding = 17) uniform usamplerBuffer corners;  // render vertex, welded vertex; three a triangle
 uniform mat4 to_clip;
 uniform float pull;  // toward the eye, in clip depth: lines lie on top of their triangles
 void main() {
-    uint id = floatBitsToUint(render_vertices[triangles[gl_VertexID]].normal.w);
-    gl_Position = to_clip * vec4(positions[id].xyz, 1.0);
+    gl_Position = to_clip * vec4(position(texelFetch(corners, gl_VertexID).y), 1.0);
     gl_Position.z -= pull * gl_Position.w;
 }

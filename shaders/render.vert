@@ -3,17 +3,8 @@
 #include "common/surface.glsl"
 #include "common/scene.glsl"
 
-struct RenderVertex {
-    vec4 normal;    // the rest normal as components of (t, b, n); then the id of the welded vertex, as bits
-    vec2 uv;
-    vec2 unused;
-};
-layout(std430, binding = 4) readonly buffer RenderVertices { RenderVertex render_vertices[]; };
-layout(std430, binding = 6) readonly buffer Triangles { uint triangles[]; };
-
-#ifdef AOV
-layout(std430, binding = 11) readonly buffer States { vec4 states[]; };  // k; 1 − r; g
-#endif
+layout(binding = 17) uniform usamplerBuffer corners;          // render vertex, welded vertex; three a triangle
+layout(binding = 18) uniform samplerBuffer render_vertices;   // rest normal as components of (t, b, n), u; v, unused
 
 #define INTERFACE out
 #define FLAT flat out
@@ -27,13 +18,14 @@ void main() {
     vec3 p[3], n[3], t[3], facing = vec3(0.0);
     vec2 uvs[3];
     for (uint i = 0u; i < 3u; ++i) {
-        RenderVertex vertex = render_vertices[triangles[first + i]];
-        id[i] = floatBitsToUint(vertex.normal.w);
-        p[i] = positions[id[i]].xyz;
-        t[i] = frames[id[i]].tangent.xyz;
-        n[i] = frames[id[i]].normal.xyz;
-        uvs[i] = vertex.uv;
-        vec3 c = vertex.normal.xyz, posed_normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
+        uvec2 ids = texelFetch(corners, int(first + i)).xy;
+        id[i] = ids.y;
+        p[i] = position(id[i]);
+        t[i] = frame_tangent(id[i]);
+        n[i] = frame_normal(id[i]);
+        vec4 own = texelFetch(render_vertices, 2 * int(ids.x));
+        uvs[i] = vec2(own.w, texelFetch(render_vertices, 2 * int(ids.x) + 1).x);
+        vec3 c = own.xyz, posed_normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
         facing += posed_normal;
         if (i == corner) normal = posed_normal;
     }
@@ -41,7 +33,7 @@ void main() {
     uv = uvs[corner];
     gl_Position = view_projection * vec4(x, 1.0);
 #ifdef AOV
-    tension = states[id[corner]].z;
+    tension = state(id[corner]).z;
 #endif
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
@@ -51,11 +43,11 @@ void main() {
     vec3 wavenumbers[3];
     vec3 h;
     for (uint i = 0u; i < 3u; ++i) {
-        vec4 wave = waves[id[i]];
-        wavenumbers[i] = wave.x * t[i] + wave.y * cross(n[i], t[i]);
-        h[i] = wave.z;
+        vec4 its = wave(id[i]);
+        wavenumbers[i] = its.x * t[i] + its.y * cross(n[i], t[i]);
+        h[i] = its.z;
         // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
-        tau[i] = dot(wavenumbers[i], x - p[i]) + (phases[id[i]].x + constants[id[i]].modifiers.z) * (0.5 / pi);
+        tau[i] = dot(wavenumbers[i], x - p[i]) + (phase(id[i]).x + constant(id[i]).z) * (0.5 / pi);
     }
     wavenumber_a = wavenumbers[0];
     wavenumber_b = wavenumbers[1];

@@ -1,7 +1,9 @@
 #include "gpu/buffer.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
+#include "base/error.h"
 #include "gpu/context.h"
 
 namespace plisse::gpu {
@@ -16,7 +18,29 @@ Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
 }
 
 Buffer::~Buffer() {
+  if (items_) glDeleteTextures(1, &items_);
   if (id_) glDeleteBuffers(1, &id_);
+}
+
+void Buffer::bind_items(int unit, Item item) const {
+  if (!items_) {
+    struct Kind {
+      GLenum format;
+      std::size_t bytes;
+    };
+    constexpr Kind kinds[] = {{GL_RGBA32F, 16}, {GL_RG32F, 8}, {GL_RGBA32UI, 16}, {GL_RG32UI, 8}, {GL_R32UI, 4}};
+    const Kind kind = kinds[static_cast<int>(item)];
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (bytes_ / kind.bytes > static_cast<std::size_t>(most)) {
+      throw Error(ExitCode::bad_input, fmt::format("the model is too large for this OpenGL driver: it reads lists of at most "
+                                                   "{} items, and one has {}",
+                                                   most, bytes_ / kind.bytes));
+    }
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &items_);
+    glTextureBuffer(items_, kind.format, id_);
+  }
+  glBindTextureUnit(static_cast<GLuint>(unit), items_);
 }
 
 void Buffer::bind_storage(int binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }

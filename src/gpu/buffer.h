@@ -15,14 +15,19 @@ class Buffer {
   template <typename Item>
   explicit Buffer(const std::vector<Item>& items) : Buffer(items.size() * sizeof(Item), items.data()) {}
   ~Buffer();
-  Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+  Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), items_(std::exchange(other.items_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
   Buffer& operator=(Buffer&& other) noexcept {
     std::swap(id_, other.id_);
+    std::swap(items_, other.items_);
     std::swap(bytes_, other.bytes_);
     return *this;
   }
   std::size_t bytes() const { return bytes_; }
   unsigned id() const { return id_; }
+  // As a list of items for a shader to fetch from (samplerBuffer). Software renderers gather from textures, but go through
+  // storage buffers lane by lane, which is five times slower; so what a shader only reads it fetches.
+  enum class Item { vec4, vec2, uvec4, uvec2, uint };
+  void bind_items(int unit, Item item) const;
   void bind_storage(int binding) const;
   void bind_uniform(int binding) const;
   void write(const void* data, std::size_t bytes, std::size_t offset = 0);
@@ -38,6 +43,7 @@ class Buffer {
 
  private:
   unsigned id_ = 0;
+  mutable unsigned items_ = 0;  // the texture over it, made when it is first bound
   std::size_t bytes_ = 0;
 };
 

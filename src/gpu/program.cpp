@@ -63,7 +63,7 @@ void dispatch(const Program& program, std::size_t count) {
   const std::size_t groups = (count + group_size - 1) / group_size;
   const std::size_t columns = std::min<std::size_t>(groups, 32768);
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>((groups + columns - 1) / columns), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace plisse::gpu

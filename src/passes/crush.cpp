@@ -9,17 +9,13 @@ CrushPass::CrushPass(const std::string& shader_folder) : crush_({"crush.comp"}, 
 void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set) {
   const std::uint32_t zero = 0;
   surface.counter.write(&zero, sizeof zero);
-  surface.positions.bind_storage(0);
-  surface.frames.bind_storage(1);
-  surface.offsets.bind_storage(2);
-  surface.neighbours.bind_storage(3);
-  surface.rest_rows.bind_storage(4);
-  surface.constants.bind_storage(5);
-  surface.states.bind_storage(6);
-  surface.waves.bind_storage(7);
-  surface.world_waves.bind_storage(8);
-  surface.counter.bind_storage(9);
-  surface.phases.bind_storage(10);
+  surface.bind_for_reading();
+  surface.rest_rows.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::vec4);
+  surface.states.bind_storage(0);
+  surface.waves.bind_storage(1);
+  surface.world_waves.bind_storage(2);
+  surface.phases.bind_storage(3);
+  surface.counter.bind_storage(4);
   crush_.use();
   glUniform1ui(crush_.uniform("vertex_count"), static_cast<GLuint>(surface.vertex_count));
   glUniform1f(crush_.uniform("dead_zone"), static_cast<float>(dead_zone));

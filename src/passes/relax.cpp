@@ -42,41 +42,41 @@ void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
 }
 
 void RelaxPass::bind(SurfaceBuffers& surface) {
-  surface.positions.bind_storage(0);
-  surface.offsets.bind_storage(2);
-  surface.neighbours.bind_storage(3);
-  surface.world_waves.bind_storage(8);
-  surface.counter.bind_storage(9);
-  surface.phases.bind_storage(10);
+  surface.bind_for_reading();
+  surface.counter.bind_storage(1);
 }
 
 void RelaxPass::round(const gpu::Program& step, SurfaceBuffers& surface) {
-  surface.phases.bind_storage(10);
-  surface.phases_next.bind_storage(11);
+  surface.bind_phases_for_reading();
+  surface.phases_next.bind_storage(0);
   gpu::dispatch(step, surface.vertex_count);
   std::swap(surface.phases, surface.phases_next);
 }
 
 void RelaxPass::smooth(SurfaceBuffers& surface, int rounds) {
+  using Item = gpu::Buffer::Item;
+  constexpr int unit = SurfaceBuffers::own_unit;
   if (numbers_.bytes() == 0) {
     numbers_ = gpu::Buffer(surface.phases.bytes());
     numbers_next_ = gpu::Buffer(surface.phases.bytes());
     rotor_list_ = gpu::Buffer(surface.neighbours.bytes() * 4);
   }
-  surface.phases.bind_storage(10);
-  rotor_list_.bind_storage(4);
-  numbers_.bind_storage(12);
-  numbers_next_.bind_storage(13);
+  surface.bind_phases_for_reading();
+  numbers_.bind_storage(1);
+  numbers_next_.bind_storage(2);
+  rotor_list_.bind_storage(3);
   set_count(rotors_, surface.vertex_count);
   gpu::dispatch(rotors_, surface.vertex_count);
+  rotor_list_.bind_items(unit + 1, Item::vec4);
   set_count(smooth_, surface.vertex_count);
   for (int i = 0; i < rounds; ++i) {
-    numbers_.bind_storage(12);
-    numbers_next_.bind_storage(13);
+    numbers_.bind_items(unit, Item::vec2);
+    numbers_next_.bind_storage(1);
     gpu::dispatch(smooth_, surface.vertex_count);
     std::swap(numbers_, numbers_next_);
   }
-  numbers_.bind_storage(12);
+  numbers_.bind_items(unit, Item::vec2);
+  surface.phases.bind_storage(0);
   set_count(finish_, surface.vertex_count);
   gpu::dispatch(finish_, surface.vertex_count);
 }

@@ -152,13 +152,9 @@ void RenderPass::write_scene(const View& view) {
 }
 
 void RenderPass::bind_surface(const SurfaceBuffers& surface) {
-  surface.positions.bind_storage(0);
-  surface.frames.bind_storage(1);
-  surface.render_vertices.bind_storage(4);
-  surface.constants.bind_storage(5);
-  surface.triangles.bind_storage(6);
-  surface.waves.bind_storage(7);
-  surface.phases.bind_storage(10);
+  surface.bind_for_reading();
+  surface.triangle_corners.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::uvec2);
+  surface.render_vertices.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
   glBindTextureUnit(1, profile_texture_);
   glBindVertexArray(vertex_array_);
 }
@@ -303,7 +299,6 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   }
   glDisable(GL_FRAMEBUFFER_SRGB);
   bind_surface(surface);
-  surface.states.bind_storage(11);
   write_scene(view);
   target.bind();
   glClearColor(0, 0, 0, 0);

@@ -5,15 +5,9 @@
 namespace plisse::passes {
 
 SkinPass::SkinPass(std::size_t palette_size, std::size_t target_count, const std::string& shader_folder) {
-  GLint limit = 0;
-  glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &limit);
-  const std::size_t bytes = palette_size * 3 * sizeof(glm::vec4);
-  in_uniforms_ = bytes <= static_cast<std::size_t>(limit);
-  gpu::Defines defines;
-  if (in_uniforms_) defines.emplace_back("PALETTE_IN_UNIFORMS", std::to_string(palette_size));
-  skin_ = gpu::Program({"skin.comp"}, defines, shader_folder);
+  skin_ = gpu::Program({"skin.comp"}, {}, shader_folder);
   frame_ = gpu::Program({"frame.comp"}, {}, shader_folder);
-  palette_ = gpu::Buffer(bytes);
+  palette_ = gpu::Buffer(palette_size * 3 * sizeof(glm::vec4));
   weights_ = gpu::Buffer(target_count * sizeof(float));
 }
 
@@ -26,14 +20,15 @@ void SkinPass::run(SurfaceBuffers& surface, const std::vector<glm::dmat4>& palet
   }
   palette_.write(rows);
   weights_.write(std::vector<float>(target_weights.begin(), target_weights.end()));
+  using Item = gpu::Buffer::Item;
+  constexpr int unit = SurfaceBuffers::own_unit;
+  surface.bind_places.bind_items(unit, Item::vec4);
+  surface.influences.bind_items(unit + 1, Item::uvec4);
+  surface.target_deltas.bind_items(unit + 2, Item::vec4);
+  palette_.bind_items(unit + 3, Item::vec4);
   surface.positions.bind_storage(0);
   surface.frames.bind_storage(1);
-  surface.bind.bind_storage(4);
-  surface.bind_normals.bind_storage(6);
-  surface.influences.bind_storage(9);
-  surface.target_deltas.bind_storage(11);
-  weights_.bind_storage(12);
-  in_uniforms_ ? palette_.bind_uniform(0) : palette_.bind_storage(13);
+  weights_.bind_storage(2);
   skin_.use();
   glUniform1ui(skin_.uniform("vertex_count"), static_cast<GLuint>(surface.vertex_count));
   glUniform1ui(skin_.uniform("target_count"), static_cast<GLuint>(target_weights.size()));
@@ -45,18 +40,20 @@ void SkinPass::run_cache(SurfaceBuffers& surface, const std::vector<glm::vec4>& 
   surface.positions.write(positions);
   // Without a matrix the bind normal is the fallback where the posed triangles give none.
   std::vector<glm::vec4> fallback(2 * surface.vertex_count);
-  const auto normals = surface.bind_normals.read<glm::vec4>();
-  for (std::size_t v = 0; v < surface.vertex_count; ++v) fallback[2 * v] = normals[v];
+  const auto places = surface.bind_places.read<glm::vec4>();
+  for (std::size_t v = 0; v < surface.vertex_count; ++v) fallback[2 * v] = places[2 * v + 1];
   surface.frames.write(fallback);
   frames(surface);
 }
 
 void SkinPass::frames(SurfaceBuffers& surface) {
-  surface.positions.bind_storage(0);
+  using Item = gpu::Buffer::Item;
+  constexpr int unit = SurfaceBuffers::own_unit;
+  surface.bind_for_reading();
+  surface.corner_offsets.bind_items(unit, Item::uint);
+  surface.corners.bind_items(unit + 1, Item::uvec2);
+  surface.tangent_neighbours.bind_items(unit + 2, Item::uint);
   surface.frames.bind_storage(1);
-  surface.corner_offsets.bind_storage(4);
-  surface.corners.bind_storage(6);
-  surface.tangent_neighbours.bind_storage(9);
   frame_.use();
   glUniform1ui(frame_.uniform("vertex_count"), static_cast<GLuint>(surface.vertex_count));
   gpu::dispatch(frame_, surface.vertex_count);

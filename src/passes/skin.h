@@ -13,7 +13,7 @@ namespace plisse::passes {
 
 class SkinPass {
  public:
-  // palette_size: matrices a pose has; it decides whether they fit a uniform block.
+  // palette_size: matrices a pose has.
   SkinPass(std::size_t palette_size, std::size_t target_count, const std::string& shader_folder);
   // palette: model units, rest → world. Positions and frames of `surface` are overwritten.
   void run(SurfaceBuffers& surface, const std::vector<glm::dmat4>& palette, const std::vector<double>& target_weights);
@@ -24,7 +24,6 @@ class SkinPass {
   void frames(SurfaceBuffers& surface);
   gpu::Program skin_, frame_;
   gpu::Buffer palette_, weights_;
-  bool in_uniforms_ = false;
 };
 
 }  // namespace plisse::passes

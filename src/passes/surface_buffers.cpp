@@ -1,6 +1,5 @@
 #include "passes/surface_buffers.h"
 
-#include <bit>
 #include <glm/gtc/constants.hpp>
 
 namespace plisse::passes {
@@ -20,8 +19,13 @@ struct GpuInfluences {
   std::array<float, 8> weights;
 };
 struct GpuRenderVertex {
-  glm::vec4 normal;
-  glm::vec2 uv, unused;
+  glm::vec4 normal_u, v;
+};
+struct GpuCorner {
+  std::uint32_t render_vertex, welded;
+};
+struct GpuPlace {
+  glm::vec4 point, normal;
 };
 
 // (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone. Zero where no
@@ -52,8 +56,9 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
       target_count(surface.target_count),
       triangle_count(surface.triangle_count()) {
   const std::size_t count = vertex_count;
-  bind = gpu::Buffer(mapped(count, [&](std::size_t v) { return single(units.rest(surface.bind[v]), 1); }));
-  bind_normals = gpu::Buffer(mapped(count, [&](std::size_t v) { return single(surface.bind_normal[v]); }));
+  bind_places = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    return GpuPlace{single(units.rest(surface.bind[v]), 1), single(surface.bind_normal[v])};
+  }));
   influences = gpu::Buffer(mapped(
       count, [&](std::size_t v) { return GpuInfluences{surface.influences[v].entry, surface.influences[v].weight}; }));
   target_deltas = gpu::Buffer(mapped(target_count * count, [&](std::size_t i) {
@@ -80,11 +85,12 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];
     const glm::dvec3 t = rest.tangent[vertex.welded], n = rest.normal[vertex.welded], m = glm::dvec3(vertex.normal);
-    return GpuRenderVertex{glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n),
-                                     std::bit_cast<float>(vertex.welded)),
-                           vertex.uv, glm::vec2(0)};
+    return GpuRenderVertex{glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n), vertex.uv.x),
+                           glm::vec4(vertex.uv.y, 0, 0, 0)};
   }));
-  triangles = gpu::Buffer(surface.triangles);
+  triangle_corners = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
+    return GpuCorner{surface.triangles[i], surface.render_vertices[surface.triangles[i]].welded};
+  }));
 
   positions = gpu::Buffer(count * sizeof(glm::vec4));
   frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
@@ -97,5 +103,20 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));
   counter = gpu::Buffer(sizeof(std::uint32_t));
 }
+
+void SurfaceBuffers::bind_for_reading() const {
+  using Item = gpu::Buffer::Item;
+  positions.bind_items(8, Item::vec4);
+  frames.bind_items(9, Item::vec4);
+  offsets.bind_items(10, Item::uint);
+  neighbours.bind_items(11, Item::uint);
+  constants.bind_items(12, Item::vec4);
+  waves.bind_items(13, Item::vec4);
+  world_waves.bind_items(14, Item::vec4);
+  bind_phases_for_reading();
+  states.bind_items(16, Item::vec4);
+}
+
+void SurfaceBuffers::bind_phases_for_reading() const { phases.bind_items(15, gpu::Buffer::Item::vec2); }
 
 }  // namespace plisse::passes

@@ -20,16 +20,21 @@ struct SurfaceBuffers {
 
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
-  gpu::Buffer bind, bind_normals, influences, target_deltas;
+  gpu::Buffer bind_places, influences, target_deltas;
   gpu::Buffer offsets, neighbours, rest_rows, constants;
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
-  gpu::Buffer render_vertices, triangles;
+  gpu::Buffer render_vertices, triangle_corners;
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).
   gpu::Buffer states, waves, phases;
   // Work space of relax.
   gpu::Buffer phases_next, counter;
+
+  // For shaders/common/surface.glsl to fetch from. `phases` alone where relax has swapped them.
+  void bind_for_reading() const;
+  void bind_phases_for_reading() const;
+  static constexpr int own_unit = 17;  // the first of a pass's own texture units
 };
 
 // The uniform start of a phase for (seed, vertex), in (−π, π].
