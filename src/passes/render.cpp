@@ -281,7 +281,7 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   if (look_.wireframe) {
     lines_.use();
     uniform(lines_, "to_clip", view.view_projection);
-    uniform(lines_, "pull", 2e-5F);
+    uniform(lines_, "pull", 1e-3F);  // a thousandth of the model: lines of steep triangles stay whole
     uniform(lines_, "flat_colour", glm::vec4(0.02F, 0.02F, 0.025F, 1));
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * surface.triangle_count));
