@@ -50,8 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
     Of, Mutations,
     ::testing::Values(
         Mutation{"Nothing", "", "", "", ""},
-        Mutation{"SkinWeight", "skin.comp", "weights[i] * texelFetch(palette, entry);", "1.0001 * weights[i] * texelFetch(palette, entry);",
-                 "skin"},
+        Mutation{"SkinWeight", "skin.comp", "weights[i] * texelFetch(palette, entry);",
+                 "1.0001 * weights[i] * texelFetch(palette, entry);", "skin"},
         Mutation{"CrushHeight", "crush.comp", "0.25 * sqrt", "0.2501 * sqrt", "crush"},
         Mutation{"CrushDirection", "crush.comp", "vec2 v2 = vec2(-v1.y, v1.x);",
                  "vec2 v2 = vec2(-v1.y, 1.01 * v1.x);", "crush"},
