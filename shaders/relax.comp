@@ -1,14 +1,15 @@
-// Relax (Loviscach 2006, 5.2, eq. 6): aligns the phases of neighbouring waves. Five programs from one file, by define:
+// Relax (Loviscach 2006, 5.2, eq. 6): aligns the phases of neighbouring waves. Six programs from one file, by define:
 //   DESCENT  one round of gradient descent for every set vertex
 //   SPREAD   one round in which fresh vertices take the phase that their set neighbours suggest
 //   ROTORS   prepares smoothing: the turn between the phases of two neighbours, once per list entry
 //   SMOOTH   one round of complex smoothing of the fresh vertices (Knöppel et al. 2015, connection Laplacian)
 //   FINISH   writes the smoothed phases back
+//   LEAD     moves phases toward those of another moment, by which a loop closes
 // docs/passes.md, "Relax".
 #include "common/items.glsl"
 #include "common/surface.glsl"
 
-#if defined(DESCENT) || defined(SPREAD) || defined(FINISH)
+#if defined(DESCENT) || defined(SPREAD) || defined(FINISH) || defined(LEAD)
 layout(std430, binding = 0) writeonly buffer PhasesOut { vec2 phases_out[]; };
 #endif
 #if defined(SPREAD)
@@ -24,6 +25,11 @@ layout(binding = 17) uniform samplerBuffer numbers;  // z
 layout(binding = 18) uniform samplerBuffer rotors;   // cos, sin, sgn, whether the neighbour counts
 uniform uint vertex_count;
 uniform float step_size;  // ε/2π², in turns per turn
+#if defined(LEAD)
+layout(binding = 19) uniform samplerBuffer led_phases;  // φ, status of the other moment
+layout(binding = 20) uniform samplerBuffer led_states;  // its k
+uniform float fraction;   // of the difference
+#endif
 
 float wrap_turns(float x) { return x - ceil(x - 0.5); }  // to (−½, ½]
 
@@ -57,6 +63,16 @@ void main() {
     }
     turns = wrap_turns(turns + step_size * sum / float(count));
     phases_out[v].x = turns * (2.0 * pi);
+
+#elif defined(LEAD)
+    vec2 own = phase(v), aim = texelFetch(led_phases, int(v)).xy;
+    phases_out[v] = own;
+    if (own.y != set || aim.y != set) return;
+    // A direction that has turned over since is the same wave with the phase's sign turned.
+    float sgn = dot(state(v).xy, texelFetch(led_states, int(v)).xy) < 0.0 ? -1.0 : 1.0;
+    float turns = own.x * (0.5 / pi);
+    turns += fraction * wrap_turns(sgn * aim.x * (0.5 / pi) - turns);
+    phases_out[v].x = 2.0 * pi * wrap_turns(turns);
 
 #elif defined(SPREAD)
     vec2 own = phase(v);

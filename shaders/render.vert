@@ -45,7 +45,7 @@ void main() {
     for (uint i = 0u; i < 3u; ++i) {
         vec4 its = wave(id[i]);
         wavenumbers[i] = its.x * t[i] + its.y * cross(n[i], t[i]);
-        h[i] = its.z;
+        h[i] = its.xy == vec2(0.0) ? 0.0 : its.z;  // a wave without a direction is not drawn
         // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
         tau[i] = dot(wavenumbers[i], x - p[i]) + (phase(id[i]).x + constant(id[i]).z) * (0.5 / pi);
     }

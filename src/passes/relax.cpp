@@ -21,7 +21,8 @@ RelaxPass::RelaxPass(const std::string& shader_folder)
       spread_(program("SPREAD", shader_folder)),
       rotors_(program("ROTORS", shader_folder)),
       smooth_(program("SMOOTH", shader_folder)),
-      finish_(program("FINISH", shader_folder)) {}
+      finish_(program("FINISH", shader_folder)),
+      lead_(program("LEAD", shader_folder)) {}
 
 void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
   bind(surface);
@@ -39,6 +40,15 @@ void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
   set_count(descent_, surface.vertex_count);
   glUniform1f(descent_.uniform("step_size"), static_cast<float>(options.epsilon / (2 * glm::pi<double>() * glm::pi<double>())));
   for (int i = 0; i < options.rounds; ++i) round(descent_, surface);
+}
+
+void RelaxPass::lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction) {
+  bind(surface);
+  phases.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec2);
+  states.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
+  set_count(lead_, surface.vertex_count);
+  glUniform1f(lead_.uniform("fraction"), static_cast<float>(fraction));
+  round(lead_, surface);
 }
 
 void RelaxPass::bind(SurfaceBuffers& surface) {

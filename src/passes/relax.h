@@ -22,6 +22,9 @@ class RelaxPass {
   explicit RelaxPass(const std::string& shader_folder);
   // Reads positions, world_waves and surface.counter (the fresh vertices); advances phases.
   void run(SurfaceBuffers& surface, const RelaxOptions& options);
+  // Moves the phases of set vertices by a fraction of their distance to those of another moment (its phases and states), with
+  // which a loop closes.
+  void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction);
   // Vertices that got a phase in the last run: no work is done for them when there are none.
   std::uint32_t fresh_in_last_run() const { return fresh_; }
 
@@ -29,7 +32,7 @@ class RelaxPass {
   void bind(SurfaceBuffers& surface);
   void round(const gpu::Program& program, SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps
   void smooth(SurfaceBuffers& surface, int rounds);
-  gpu::Program descent_, spread_, rotors_, smooth_, finish_;
+  gpu::Program descent_, spread_, rotors_, smooth_, finish_, lead_;
   gpu::Buffer numbers_, numbers_next_, rotor_list_;                  // made at the first onset
   std::uint32_t fresh_ = 0;
 };

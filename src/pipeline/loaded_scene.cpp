@@ -78,7 +78,7 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   fit_camera(samples);
 
   Hash& hash = state_base_;
-  hash.add(version).add(animation.timeline().frames_per_second).add(settings.model.loop);
+  hash.add(version).add(animation.timeline().frames_per_second).add(preroll_);
   add_items(hash, surface().bind);
   add_items(hash, surface().rest);
   add_items(hash, surface().influences);
@@ -241,6 +241,15 @@ passes::View LoadedScene::view(int frame) const {
   view.lights[2] = {direction(light.rim_azimuth, light.rim_elevation), light.rim_intensity * glm::dvec3(1)};
   view.ambient = light.ambient * 0.5 * (fill + glm::dvec3(1));
   return view;
+}
+
+double LoadedScene::lead_at(int step) const {
+  const Timeline& timeline = animation.timeline();
+  if (step <= preroll_ + 1 || preroll_ == 0) return 0;
+  const int left = timeline.frame_count - frame_of_step(step);  // frames until the last
+  const int reach = std::min(timeline.frame_count / 3, static_cast<int>(timeline.frames_per_second));
+  // Equal shares of the way: what is left over after the last frame is one share, which the first frame makes.
+  return left < reach ? 1.0 / (left + 2) : 0.0;
 }
 
 const Pose& LoadedScene::pose(int step) {

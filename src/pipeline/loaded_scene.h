@@ -38,6 +38,10 @@ class LoadedScene {
   // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
   int step_of_frame(int frame) const { return preroll_ + frame; }
   int frame_of_step(int step) const { return step <= preroll_ ? step : step - preroll_; }
+  // How a loop closes: the phases of the drawn period's first step are remembered, and in its last frames (a third of the
+  // clip, at most a second) each step moves this share of what is left toward them; 0 elsewhere.
+  bool remembers_at(int step) const { return preroll_ > 0 && step == preroll_ + 1; }
+  double lead_at(int step) const;
   // The pose of a step, asked in order; a step may be asked again until a later one is dropped.
   const Pose& pose(int step);
   void drop_poses_before(int step);

@@ -1,6 +1,7 @@
 #include "pipeline/reference_scene.h"
 
 #include "base/colour.h"
+#include "reference/functions.h"
 
 namespace plisse::pipeline {
 namespace {
@@ -187,7 +188,8 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
         triangle.welded[static_cast<std::size_t>(c)] = vertex.welded;
         triangle.waves.corners.col(c) = snapshot.positions.col(v);
         triangle.waves.wavenumbers.col(c) = field.wavenumbers.col(v);
-        triangle.waves.heights[c] = snapshot.heights[v];
+        // A wave without a direction is not drawn.
+        triangle.waves.heights[c] = field.wavenumbers.col(v).isZero(0) ? 0 : snapshot.heights[v];
         triangle.waves.phases[c] = snapshot.phases[v] + scene.phase_noise[v];
         triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
         // The rest normal's components ride in the posed frame.
@@ -226,8 +228,12 @@ ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
 
-void ReferenceChain::step(const Pose& pose, bool with_crush) {
-  if (!last_.empty() && last_.front() == pose) return;
+void ReferenceChain::step(int step, const Pose& pose, bool with_crush) {
+  if (last_.empty() || last_.front() != pose) advance(step, pose, with_crush);
+  if (scene_.scene.remembers_at(step)) remembered_ = now_;
+}
+
+void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
   last_ = {pose};
   now_.positions = scene_.positions(pose);
   now_.frames = scene_.frames(pose, now_.positions);
@@ -246,6 +252,16 @@ void ReferenceChain::step(const Pose& pose, bool with_crush) {
   reference::relax(scene_.topology, field, scene_.relax);
   now_.phases = field.phases;
   for (std::size_t v = 0; v < now_.states.size(); ++v) now_.states[v].status = field.status[v];
+  const double share = scene_.scene.lead_at(step);
+  if (share == 0) return;
+  for (std::size_t v = 0; v < now_.states.size(); ++v) {
+    const auto &own = now_.states[v], &aim = remembered_.states[v];
+    if (own.status != reference::Status::set || aim.status != reference::Status::set) continue;
+    const auto i = static_cast<Index>(v);
+    const double sign = own.direction.dot(aim.direction) < 0 ? -1 : 1;
+    now_.phases[i] = reference::wrap_radians(
+        now_.phases[i] + share * reference::wrap_radians(sign * remembered_.phases[i] - now_.phases[i]));
+  }
 }
 
 }  // namespace plisse::pipeline

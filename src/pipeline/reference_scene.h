@@ -52,13 +52,16 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene);
 class ReferenceChain {
  public:
   explicit ReferenceChain(const ReferenceScene& scene);
-  void step(const Pose& pose, bool with_crush);
+  // `step` decides where a loop's phases are remembered and led (LoadedScene).
+  void step(int step, const Pose& pose, bool with_crush);
   const WaveSnapshot& now() const { return now_; }
 
  private:
   const ReferenceScene& scene_;
   WaveSnapshot now_;
+  void advance(int step, const Pose& pose, bool with_crush);
   std::vector<Pose> last_;  // at most one
+  WaveSnapshot remembered_;
 };
 
 }  // namespace plisse::pipeline

@@ -26,7 +26,9 @@ Stepper::Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& 
       surface_(scene.surface(), scene.rest, scene.waves, scene.units, scene.settings.wrinkles.seed),
       skin_(scene.pose(1).palette.size(), scene.surface().target_count, shader_folder),
       crush_(shader_folder),
-      relax_(shader_folder) {}
+      relax_(shader_folder),
+      remembered_phases_(surface_.phases.bytes()),
+      remembered_states_(surface_.states.bytes()) {}
 
 bool Stepper::crush_runs_at(int step) const {
   return (scene_.frame_of_step(step) - 1) % scene_.settings.relax.interval == 0;
@@ -79,8 +81,13 @@ void Stepper::advance_to(int step) {
         observe(Stage::crushed);
         relax();
         observe(Stage::relaxed);
+        if (const double share = scene_.lead_at(step_); share > 0) relax_.lead(surface_, remembered_phases_, remembered_states_, share);
       }
       last_pose_ = pose;
+    }
+    if (scene_.remembers_at(step_)) {
+      remembered_phases_.write(surface_.phases.read<std::uint8_t>());
+      remembered_states_.write(surface_.states.read<std::uint8_t>());
     }
     scene_.drop_poses_before(step_);
   }
@@ -102,7 +109,7 @@ Hash keyed(Hash history, const Hash& driver) { return history.add(driver.hex());
 
 void Stepper::write_state(const std::filesystem::path& path, const Hash& driver) {
   std::vector<std::uint8_t> content;
-  for (const gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames}) {
+  for (const gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames, &remembered_phases_, &remembered_states_}) {
     const auto bytes = buffer->read<std::uint8_t>();
     content.insert(content.end(), bytes.begin(), bytes.end());
   }
@@ -143,7 +150,7 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
     return refuse("made with other settings, another model or another driver");
   }
   std::size_t at = 0;
-  for (gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames}) {
+  for (gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames, &remembered_phases_, &remembered_states_}) {
     if (at + buffer->bytes() > content.size()) return refuse("too short");
     buffer->write(content.data() + at, buffer->bytes());
     at += buffer->bytes();

@@ -55,6 +55,7 @@ class Stepper {
   passes::SkinPass skin_;
   passes::CrushPass crush_;
   passes::RelaxPass relax_;
+  gpu::Buffer remembered_phases_, remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
   std::optional<Pose> last_pose_;
   bool unchanged_ = false;
