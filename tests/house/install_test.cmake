@@ -1,7 +1,7 @@
 # Installs BUILD into a fresh folder WORK and uses it from there: the program says its version, and a project of its
 # own finds, links and runs the library.
 #
-#   cmake -DBUILD=… -DSOURCE=… -DWORK=… -DVERSION=… -DCOMPILER=… -P tests/house/install_test.cmake
+#   cmake -DBUILD=… -DSOURCE=… -DWORK=… -DVERSION=… -DCOMPILER=… -DGENERATOR=… -P tests/house/install_test.cmake
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -36,8 +36,8 @@ foreach(file ${package})
   endif()
 endforeach()
 
-run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${WORK}/consumer -DCMAKE_PREFIX_PATH=${WORK}/prefix
-  -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE}/tests/house/consumer -B ${WORK}/consumer
+  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
 run(${WORK}/consumer/consumer)
 message("${output}")
