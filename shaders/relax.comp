@@ -12,7 +12,7 @@
 #if defined(DESCENT) || defined(SPREAD) || defined(FINISH) || defined(LEAD)
 layout(std430, binding = 0) writeonly buffer PhasesOut { vec2 phases_out[]; };
 #endif
-#if defined(SPREAD)
+#if defined(SPREAD) || defined(LEAD)
 layout(std430, binding = 1) buffer Counter { uint fresh_count; };
 #elif defined(ROTORS)
 layout(std430, binding = 1) writeonly buffer Numbers { vec2 numbers_out[]; };
@@ -29,6 +29,7 @@ uniform float step_size;  // ε/2π², in turns per turn
 layout(binding = 19) uniform samplerBuffer led_phases;  // φ, status of the other moment
 layout(binding = 20) uniform samplerBuffer led_states;  // its k
 uniform float fraction;   // of the difference
+uniform bool fresh_ones;  // they begin with the other moment's phase, and are set; else set ones are moved
 #endif
 
 float wrap_turns(float x) { return x - ceil(x - 0.5); }  // to (−½, ½]
@@ -67,12 +68,13 @@ void main() {
 #elif defined(LEAD)
     vec2 own = phase(v), aim = texelFetch(led_phases, int(v)).xy;
     phases_out[v] = own;
-    if (own.y != set || aim.y != set) return;
+    if (own.y != (fresh_ones ? fresh : set) || aim.y != set) return;
     // A direction that has turned over since is the same wave with the phase's sign turned.
     float sgn = dot(state(v).xy, texelFetch(led_states, int(v)).xy) < 0.0 ? -1.0 : 1.0;
     float turns = own.x * (0.5 / pi);
     turns += fraction * wrap_turns(sgn * aim.x * (0.5 / pi) - turns);
-    phases_out[v].x = 2.0 * pi * wrap_turns(turns);
+    phases_out[v] = vec2(2.0 * pi * wrap_turns(turns), set);
+    if (fresh_ones) atomicAdd(fresh_count, 0xffffffffu);  // one fewer
 
 #elif defined(SPREAD)
     vec2 own = phase(v);

@@ -20,12 +20,12 @@ using GlInfo = gpu::Info;
 
 struct RenderRequest {
   SceneSettings scene;
-  bool skip_existing = false;       // trust a frame whose file is whole and whose hash is right
-  bool overwrite = true;            // false: an existing file is an error (5)
-  std::string state_file;           // empty: none
-  std::vector<std::string> aovs;    // height, normal, amplitude, phase, direction, tension, depth
-  int device = -1;                  // −1: first that works
-  std::string shader_folder;        // overrides the embedded shaders; empty: none
+  bool skip_existing = false;     // trust a frame whose file is whole and whose hash is right
+  bool overwrite = true;          // false: an existing file is an error (5)
+  std::string state_file;         // empty: none
+  std::vector<std::string> aovs;  // height, normal, amplitude, phase, direction, tension, depth
+  int device = -1;                // −1: first that works
+  std::string shader_folder;      // overrides the embedded shaders; empty: none
 };
 
 struct FrameReport {
@@ -34,17 +34,18 @@ struct FrameReport {
   std::string path;
   std::map<std::string, double> ms;  // skin, crush, relax, render, readback, encode, write
   bool skipped = false;
-  std::string error;                 // empty: rendered
+  std::string error;  // empty: rendered
 };
 
 struct RenderReport {
   GlInfo gl;
   std::size_t render_vertices = 0, welded_vertices = 0, triangles = 0;
-  std::string timer;                 // "cpu" | "gpu"
+  std::string timer;  // "cpu" | "gpu"
   std::vector<FrameReport> frames;
   double wavelength_m = 0;
   double fps = 0, wall_s = 0;
-  std::map<std::string, int> skipped;  // what was left out and how often: "existing frames", "unchanged pose", …
+  std::map<std::string, int>
+      skipped;  // what was left out and how often: "existing frames", "unchanged pose", …
   bool interrupted = false;
 };
 
@@ -56,24 +57,25 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
 struct PassComparison {
   double max_abs = 0, rms = 0, tolerance = 0;
   bool ok = true;
-  std::string unit;                  // of max_abs: "of the bounding box", "of W", "rad", "of 255"
+  std::string unit;  // of max_abs: "of the bounding box", "of W", "rad", "of 255"
 };
 
 struct VerifyReport {
   bool ok = true;
   GlInfo gl;
   std::vector<int> frames;
-  std::map<std::string, PassComparison> passes;   // skin, crush, relax, render, and parts such as crush.r
+  std::map<std::string, PassComparison> passes;  // skin, crush, relax, render, and parts such as crush.r
   double fraction_within_4 = 1, mean_flip = 0, silhouette_fraction = 0;
   double chain_phase_rms = 0, chain_image_flip = 0;
-  std::vector<std::string> failures;              // one sentence each
+  std::vector<std::string> failures;  // one sentence each
 };
 
-// Shader against reference, each pass fed the GPU's own inputs (state over time, rule 6). Without a frame selection it
-// takes at most eight frames spread over the clip.
+// Shader against reference, each pass fed the GPU's own inputs (state over time, rule 6). Without a frame
+// selection it takes at most eight frames spread over the clip.
 VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame);
 
-// W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest diagonal.
+// W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
+// diagonal.
 double default_wavelength(const Surface& surface);
 
 }  // namespace plisse

@@ -11,7 +11,8 @@ namespace {
 
 spdlog::logger& logger() {
   static auto instance = [] {
-    auto made = std::make_shared<spdlog::logger>("plisse", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    auto made =
+        std::make_shared<spdlog::logger>("plisse", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
     made->set_pattern("%v");
     made->set_level(spdlog::level::info);
     return made;
@@ -27,9 +28,15 @@ void set_level(Level level) {
                                                : spdlog::level::info);
 }
 
-void info(std::string_view text) { logger().debug("{}", text); }
-void notice(std::string_view text) { logger().info("{}", text); }
-void warn(std::string_view text) { logger().warn("warning: {}", text); }
+void info(std::string_view text) {
+  logger().debug("{}", text);
+}
+void notice(std::string_view text) {
+  logger().info("{}", text);
+}
+void warn(std::string_view text) {
+  logger().warn("warning: {}", text);
+}
 
 void warn_once(const std::string& key, std::string_view text) {
   static std::mutex mutex;

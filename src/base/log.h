@@ -11,9 +11,9 @@ namespace plisse::log {
 enum class Level { quiet, normal, verbose };
 void set_level(Level level);
 
-void info(std::string_view text);     // shown with -v
-void notice(std::string_view text);   // shown unless -q
-void warn(std::string_view text);     // shown unless -q, prefixed "warning:"
+void info(std::string_view text);    // shown with -v
+void notice(std::string_view text);  // shown unless -q
+void warn(std::string_view text);    // shown unless -q, prefixed "warning:"
 // A warning that concerns many elements alike is said once per process and key.
 void warn_once(const std::string& key, std::string_view text);
 

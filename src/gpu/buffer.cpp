@@ -28,14 +28,16 @@ void Buffer::bind_items(int unit, Item item) const {
       GLenum format;
       std::size_t bytes;
     };
-    constexpr Kind kinds[] = {{GL_RGBA32F, 16}, {GL_RG32F, 8}, {GL_RGBA32UI, 16}, {GL_RG32UI, 8}, {GL_R32UI, 4}};
+    constexpr Kind kinds[] = {
+        {GL_RGBA32F, 16}, {GL_RG32F, 8}, {GL_RGBA32UI, 16}, {GL_RG32UI, 8}, {GL_R32UI, 4}};
     const Kind kind = kinds[static_cast<int>(item)];
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (bytes_ / kind.bytes > static_cast<std::size_t>(most)) {
-      throw Error(ExitCode::bad_input, fmt::format("the model is too large for this OpenGL driver: it reads lists of at most "
-                                                   "{} items, and one has {}",
-                                                   most, bytes_ / kind.bytes));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("the model is too large for this OpenGL driver: it reads lists of at most "
+                              "{} items, and one has {}",
+                              most, bytes_ / kind.bytes));
     }
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &items_);
     glTextureBuffer(items_, kind.format, id_);
@@ -43,8 +45,12 @@ void Buffer::bind_items(int unit, Item item) const {
   glBindTextureUnit(static_cast<GLuint>(unit), items_);
 }
 
-void Buffer::bind_storage(int binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
-void Buffer::bind_uniform(int binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+void Buffer::bind_storage(int binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
+void Buffer::bind_uniform(int binding) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_);
+}
 
 void Buffer::write(const void* data, std::size_t bytes, std::size_t offset) {
   if (bytes) glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
@@ -52,7 +58,8 @@ void Buffer::write(const void* data, std::size_t bytes, std::size_t offset) {
 
 void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  if (bytes) glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+  if (bytes)
+    glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
 }  // namespace plisse::gpu

@@ -10,12 +10,16 @@ namespace plisse::gpu {
 class Buffer {
  public:
   Buffer() = default;
-  // `bytes` of storage, filled from `data` if given, zero otherwise. Throws Error(try_again) when memory is out.
+  // `bytes` of storage, filled from `data` if given, zero otherwise. Throws Error(try_again) when memory is
+  // out.
   explicit Buffer(std::size_t bytes, const void* data = nullptr);
   template <typename Item>
   explicit Buffer(const std::vector<Item>& items) : Buffer(items.size() * sizeof(Item), items.data()) {}
   ~Buffer();
-  Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), items_(std::exchange(other.items_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+  Buffer(Buffer&& other) noexcept
+      : id_(std::exchange(other.id_, 0)),
+        items_(std::exchange(other.items_, 0)),
+        bytes_(std::exchange(other.bytes_, 0)) {}
   Buffer& operator=(Buffer&& other) noexcept {
     std::swap(id_, other.id_);
     std::swap(items_, other.items_);
@@ -24,8 +28,9 @@ class Buffer {
   }
   std::size_t bytes() const { return bytes_; }
   unsigned id() const { return id_; }
-  // As a list of items for a shader to fetch from (samplerBuffer). Software renderers gather from textures, but go through
-  // storage buffers lane by lane, which is five times slower; so what a shader only reads it fetches.
+  // As a list of items for a shader to fetch from (samplerBuffer). Software renderers gather from textures,
+  // but go through storage buffers lane by lane, which is five times slower; so what a shader only reads it
+  // fetches.
   enum class Item { vec4, vec2, uvec4, uvec2, uint };
   void bind_items(int unit, Item item) const;
   void bind_storage(int binding) const;
@@ -33,7 +38,9 @@ class Buffer {
   void write(const void* data, std::size_t bytes, std::size_t offset = 0);
   void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
   template <typename Item>
-  void write(const std::vector<Item>& items) { write(items.data(), items.size() * sizeof(Item)); }
+  void write(const std::vector<Item>& items) {
+    write(items.data(), items.size() * sizeof(Item));
+  }
   template <typename Item>
   std::vector<Item> read() const {
     std::vector<Item> items(bytes_ / sizeof(Item));

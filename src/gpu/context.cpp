@@ -18,16 +18,26 @@ const char* egl_error_text(EGLint code) {
   switch (code) {
     case EGL_NOT_INITIALIZED:
       return "EGL_NOT_INITIALIZED (no driver could be loaded; install libgl1-mesa-dri, or your GPU's driver)";
-    case EGL_BAD_ACCESS: return "EGL_BAD_ACCESS (the device is not yours to open; join the groups render and video)";
-    case EGL_BAD_ALLOC: return "EGL_BAD_ALLOC (out of memory)";
-    case EGL_BAD_ATTRIBUTE: return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG: return "EGL_BAD_CONFIG";
-    case EGL_BAD_CONTEXT: return "EGL_BAD_CONTEXT";
-    case EGL_BAD_DISPLAY: return "EGL_BAD_DISPLAY";
-    case EGL_BAD_MATCH: return "EGL_BAD_MATCH (the driver has no OpenGL 4.5 core)";
-    case EGL_BAD_PARAMETER: return "EGL_BAD_PARAMETER";
-    case EGL_SUCCESS: return "nothing";
-    default: return "an unknown error";
+    case EGL_BAD_ACCESS:
+      return "EGL_BAD_ACCESS (the device is not yours to open; join the groups render and video)";
+    case EGL_BAD_ALLOC:
+      return "EGL_BAD_ALLOC (out of memory)";
+    case EGL_BAD_ATTRIBUTE:
+      return "EGL_BAD_ATTRIBUTE";
+    case EGL_BAD_CONFIG:
+      return "EGL_BAD_CONFIG";
+    case EGL_BAD_CONTEXT:
+      return "EGL_BAD_CONTEXT";
+    case EGL_BAD_DISPLAY:
+      return "EGL_BAD_DISPLAY";
+    case EGL_BAD_MATCH:
+      return "EGL_BAD_MATCH (the driver has no OpenGL 4.5 core)";
+    case EGL_BAD_PARAMETER:
+      return "EGL_BAD_PARAMETER";
+    case EGL_SUCCESS:
+      return "nothing";
+    default:
+      return "an unknown error";
   }
 }
 
@@ -40,7 +50,8 @@ void require_library(const char* purpose, std::initializer_list<const char*> nam
     }
   }
   throw Error(ExitCode::no_opengl,
-              fmt::format("no usable OpenGL: {} ({}) is not installed; install the package {}", *names.begin(), purpose, package));
+              fmt::format("no usable OpenGL: {} ({}) is not installed; install the package {}",
+                          *names.begin(), purpose, package));
 }
 
 void require_libraries() {
@@ -100,7 +111,8 @@ struct Context::Handles {
   std::string open(EGLDisplay candidate) {
     if (candidate == EGL_NO_DISPLAY) return fmt::format("no display: {}", egl_error_text(eglGetError()));
     EGLint major = 0, minor = 0;
-    if (!eglInitialize(candidate, &major, &minor)) return fmt::format("eglInitialize: {}", egl_error_text(eglGetError()));
+    if (!eglInitialize(candidate, &major, &minor))
+      return fmt::format("eglInitialize: {}", egl_error_text(eglGetError()));
     display = candidate;
     std::string problem;
     if (!eglBindAPI(EGL_OPENGL_API)) {
@@ -114,10 +126,15 @@ struct Context::Handles {
         const std::array<EGLint, 3> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
         if (!eglChooseConfig(display, wanted.data(), &config, 1, &configs)) configs = 0;
       }
-      const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+      const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                             4,
+                                             EGL_CONTEXT_MINOR_VERSION,
+                                             5,
+                                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                              EGL_NONE};
-      context = configs > 0 ? eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data()) : EGL_NO_CONTEXT;
+      context =
+          configs > 0 ? eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data()) : EGL_NO_CONTEXT;
       if (context == EGL_NO_CONTEXT) {
         problem = fmt::format("an OpenGL 4.5 core context: {}", egl_error_text(eglGetError()));
       } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
@@ -153,7 +170,8 @@ Context::Context(int device) : handles_(std::make_unique<Handles>()) {
   if (devices.empty()) tried += "\n  EGL devices: " + problem;
   if (device >= 0 && static_cast<std::size_t>(device) >= devices.size()) {
     throw Error(ExitCode::bad_input,
-                fmt::format("--device {}: there are {} EGL devices, counted from 0 (see --list-devices)", device, devices.size()));
+                fmt::format("--device {}: there are {} EGL devices, counted from 0 (see --list-devices)",
+                            device, devices.size()));
   }
   bool open = false;
   for (std::size_t i = 0; i < devices.size() && !open; ++i) {
@@ -188,7 +206,8 @@ std::vector<std::string> list_devices() {
   std::string problem;
   std::vector<std::string> lines;
   const auto devices = query_devices(problem);
-  for (std::size_t i = 0; i < devices.size(); ++i) lines.push_back(fmt::format("{}: {}", i, device_text(devices[i])));
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    lines.push_back(fmt::format("{}: {}", i, device_text(devices[i])));
   if (lines.empty()) throw Error(ExitCode::no_opengl, "no EGL device: " + problem);
   return lines;
 }
@@ -196,12 +215,12 @@ std::vector<std::string> list_devices() {
 void check(const char* where) {
   const GLenum code = glGetError();
   if (code == GL_NO_ERROR) return;
-  const char* name = code == GL_OUT_OF_MEMORY        ? "out of memory"
-                     : code == GL_CONTEXT_LOST       ? "context lost"
-                     : code == GL_INVALID_VALUE      ? "invalid value"
-                     : code == GL_INVALID_ENUM       ? "invalid enum"
-                     : code == GL_INVALID_OPERATION  ? "invalid operation"
-                                                     : "error";
+  const char* name = code == GL_OUT_OF_MEMORY       ? "out of memory"
+                     : code == GL_CONTEXT_LOST      ? "context lost"
+                     : code == GL_INVALID_VALUE     ? "invalid value"
+                     : code == GL_INVALID_ENUM      ? "invalid enum"
+                     : code == GL_INVALID_OPERATION ? "invalid operation"
+                                                    : "error";
   throw Error(ExitCode::try_again, fmt::format("OpenGL: {} (0x{:x}) {}", name, code, where));
 }
 

@@ -19,13 +19,15 @@ std::string log_of(GLuint id, bool program) {
   GLint length = 0;
   program ? glGetProgramiv(id, GL_INFO_LOG_LENGTH, &length) : glGetShaderiv(id, GL_INFO_LOG_LENGTH, &length);
   std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
-  program ? glGetProgramInfoLog(id, length, nullptr, text.data()) : glGetShaderInfoLog(id, length, nullptr, text.data());
+  program ? glGetProgramInfoLog(id, length, nullptr, text.data())
+          : glGetShaderInfoLog(id, length, nullptr, text.data());
   return text;
 }
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& files, const Defines& defines, const std::string& shader_folder) {
+Program::Program(const std::vector<std::string>& files, const Defines& defines,
+                 const std::string& shader_folder) {
   std::string head = fmt::format("#version 450 core\n#define GROUP_SIZE {}\n", group_size);
   for (const auto& [name, value] : defines) head += fmt::format("#define {} {}\n", name, value);
   head += "#line 1\n";
@@ -41,21 +43,28 @@ Program::Program(const std::vector<std::string>& files, const Defines& defines, 
     const std::string words = ok ? "" : log_of(shader, false);
     glAttachShader(id_, shader);
     glDeleteShader(shader);
-    if (!ok) throw Error(ExitCode::no_opengl, fmt::format("shader {} does not compile here:\n{}", file, words));
+    if (!ok)
+      throw Error(ExitCode::no_opengl, fmt::format("shader {} does not compile here:\n{}", file, words));
   }
   glLinkProgram(id_);
   GLint ok = 0;
   glGetProgramiv(id_, GL_LINK_STATUS, &ok);
-  if (!ok) throw Error(ExitCode::no_opengl, fmt::format("shader {} does not link here:\n{}", files.front(), log_of(id_, true)));
+  if (!ok)
+    throw Error(ExitCode::no_opengl,
+                fmt::format("shader {} does not link here:\n{}", files.front(), log_of(id_, true)));
 }
 
 Program::~Program() {
   if (id_) glDeleteProgram(id_);
 }
 
-void Program::use() const { glUseProgram(id_); }
+void Program::use() const {
+  glUseProgram(id_);
+}
 
-int Program::uniform(const char* name) const { return glGetUniformLocation(id_, name); }
+int Program::uniform(const char* name) const {
+  return glGetUniformLocation(id_, name);
+}
 
 void dispatch(const Program& program, std::size_t count) {
   if (count == 0) return;

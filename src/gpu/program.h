@@ -12,9 +12,10 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 class Program {
  public:
   Program() = default;
-  // Files of shaders/ by their ending: one .comp, or .vert and .frag. Defines follow the #version line that this class
-  // writes. Throws Error(no_opengl) with the compiler's words.
-  Program(const std::vector<std::string>& files, const Defines& defines = {}, const std::string& shader_folder = "");
+  // Files of shaders/ by their ending: one .comp, or .vert and .frag. Defines follow the #version line that
+  // this class writes. Throws Error(no_opengl) with the compiler's words.
+  Program(const std::vector<std::string>& files, const Defines& defines = {},
+          const std::string& shader_folder = "");
   ~Program();
   Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
   Program& operator=(Program&& other) noexcept {
@@ -29,8 +30,9 @@ class Program {
   unsigned id_ = 0;
 };
 
-// Runs a compute program over `count` items in groups of `group_size`, in two dimensions where one does not hold them:
-// past 65,535 groups a driver may do nothing at all. Shaders use `item_index()` of common/items.glsl.
+// Runs a compute program over `count` items in groups of `group_size`, in two dimensions where one does not
+// hold them: past 65,535 groups a driver may do nothing at all. Shaders use `item_index()` of
+// common/items.glsl.
 inline constexpr int group_size = 64;
 void dispatch(const Program& program, std::size_t count);
 

@@ -14,7 +14,10 @@ namespace {
 std::string read(const std::string& name, const std::string& folder) {
   if (!folder.empty()) {
     std::ifstream file(folder + "/" + name);
-    if (!file) throw Error(ExitCode::bad_input, fmt::format("{}/{}: cannot be read (--shaders names a folder with all of shaders/)", folder, name));
+    if (!file)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}/{}: cannot be read (--shaders names a folder with all of shaders/)", folder, name));
     std::stringstream text;
     text << file.rdbuf();
     return text.str();

@@ -10,7 +10,8 @@
 
 namespace plisse::gpu {
 
-Target::Target(int width, int height, int samples, Format format) : width_(width), height_(height), samples_(samples) {
+Target::Target(int width, int height, int samples, Format format)
+    : width_(width), height_(height), samples_(samples) {
   const GLenum colour_format = format == Format::srgb8 ? GL_SRGB8_ALPHA8 : GL_RGBA32F;
   const auto storage = [&](unsigned& id, GLenum internal, int count) {
     glCreateRenderbuffers(1, &id);
@@ -23,9 +24,10 @@ Target::Target(int width, int height, int samples, Format format) : width_(width
   const auto complete = [&](unsigned framebuffer) {
     const GLenum status = glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-      throw Error(ExitCode::try_again, fmt::format("OpenGL: a {}×{} picture with {} samples cannot be made here (0x{:x}); "
-                                                   "try a smaller --size or --samples 1",
-                                                   width, height, samples, status));
+      throw Error(ExitCode::try_again,
+                  fmt::format("OpenGL: a {}×{} picture with {} samples cannot be made here (0x{:x}); "
+                              "try a smaller --size or --samples 1",
+                              width, height, samples, status));
     }
   };
   storage(colour_, colour_format, samples);
@@ -72,8 +74,8 @@ void Target::bind() const {
 
 void Target::resolve(const Rectangle& area) const {
   if (read_ == draw_ || area.empty()) return;
-  glBlitNamedFramebuffer(draw_, read_, area.x, area.y, area.x + area.width, area.y + area.height, area.x, area.y,
-                         area.x + area.width, area.y + area.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(draw_, read_, area.x, area.y, area.x + area.width, area.y + area.height, area.x,
+                         area.y, area.x + area.width, area.y + area.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 namespace {
@@ -98,6 +100,8 @@ std::vector<std::uint8_t> Target::read_rgba8() const {
   return read_flipped<std::uint8_t>(read_, width_, height_, GL_UNSIGNED_BYTE);
 }
 
-std::vector<float> Target::read_rgba32f() const { return read_flipped<float>(read_, width_, height_, GL_FLOAT); }
+std::vector<float> Target::read_rgba32f() const {
+  return read_flipped<float>(read_, width_, height_, GL_FLOAT);
+}
 
 }  // namespace plisse::gpu

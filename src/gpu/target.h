@@ -32,8 +32,8 @@ class Target {
   std::vector<float> read_rgba32f() const;
 
  private:
-  unsigned draw_ = 0, read_ = 0;                              // framebuffers; the same where samples = 1
-  unsigned colour_ = 0, depth_ = 0, resolved_ = 0;            // renderbuffers
+  unsigned draw_ = 0, read_ = 0;                    // framebuffers; the same where samples = 1
+  unsigned colour_ = 0, depth_ = 0, resolved_ = 0;  // renderbuffers
   int width_ = 0, height_ = 0, samples_ = 1;
 };
 

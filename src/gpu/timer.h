@@ -1,5 +1,5 @@
-// Times the stages of a frame: timer queries on a GPU, a CPU clock round glFinish on a software renderer, where timer
-// queries say nothing useful.
+// Times the stages of a frame: timer queries on a GPU, a CPU clock round glFinish on a software renderer,
+// where timer queries say nothing useful.
 #pragma once
 
 #include <map>

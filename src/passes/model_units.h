@@ -1,5 +1,5 @@
-// The units in which the passes work (docs/passes.md, "Units"): the model's centre is the origin and its size about 1,
-// so that single precision is spent on the model, wherever and however large it is.
+// The units in which the passes work (docs/passes.md, "Units"): the model's centre is the origin and its size
+// about 1, so that single precision is spent on the model, wherever and however large it is.
 #pragma once
 
 #include <cmath>
@@ -8,12 +8,14 @@
 namespace plisse::passes {
 
 struct ModelUnits {
-  double metres = 1;              // of one unit: a power of two, so that scaling costs no digit
-  glm::dvec3 rest_centre{0};      // origin of rest and bind positions, metres
-  glm::dvec3 world_centre{0};     // origin of posed positions, metres
+  double metres = 1;           // of one unit: a power of two, so that scaling costs no digit
+  glm::dvec3 rest_centre{0};   // origin of rest and bind positions, metres
+  glm::dvec3 world_centre{0};  // origin of posed positions, metres
 
   static double unit_for(double size_in_metres) {
-    return size_in_metres > 0 && std::isfinite(size_in_metres) ? std::exp2(std::ceil(std::log2(size_in_metres))) : 1.0;
+    return size_in_metres > 0 && std::isfinite(size_in_metres)
+               ? std::exp2(std::ceil(std::log2(size_in_metres)))
+               : 1.0;
   }
   glm::dvec3 rest(const glm::dvec3& x) const { return (x - rest_centre) / metres; }
   glm::dvec3 world(const glm::dvec3& x) const { return (x - world_centre) / metres; }

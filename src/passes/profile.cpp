@@ -15,12 +15,15 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-[[noreturn]] void fail(const std::string& text) { throw Error(ExitCode::bad_input, text); }
+[[noreturn]] void fail(const std::string& text) {
+  throw Error(ExitCode::bad_input, text);
+}
 
 std::vector<double> read_table(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
-    fail(fmt::format("profile '{}': neither sinusoid, accordion nor pencil, and no such file can be read", path));
+    fail(fmt::format("profile '{}': neither sinusoid, accordion nor pencil, and no such file can be read",
+                     path));
   }
   std::vector<double> values;
   std::string line;
@@ -33,8 +36,10 @@ std::vector<double> read_table(const std::string& path) {
       double value = 0;
       const auto [next, problem] = std::from_chars(at, end, value);
       if (problem != std::errc() || !std::isfinite(value)) {
-        fail(fmt::format("{}:{}:{}: not a finite number; a profile is a list of numbers, one period of f from its crest on",
-                         path, number, at - line.data() + 1));
+        fail(
+            fmt::format("{}:{}:{}: not a finite number; a profile is a list of numbers, one period of f from "
+                        "its crest on",
+                        path, number, at - line.data() + 1));
       }
       values.push_back(value);
       at = next;
@@ -56,9 +61,10 @@ std::vector<double> normalised_table(const std::string& path) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     // 1e-3 of the half height: a table written with four digits passes.
     if (std::abs(values[i] - values[values.size() - i]) > 1e-3) {
-      fail(fmt::format("{}: not even: number {} and number {} differ, but f(phase) must equal f(-phase), because the "
-                       "direction of a wave has no sign; start the period at a crest that is symmetric",
-                       path, i + 1, values.size() - i + 1));
+      fail(fmt::format(
+          "{}: not even: number {} and number {} differ, but f(phase) must equal f(-phase), because the "
+          "direction of a wave has no sign; start the period at a crest that is symmetric",
+          path, i + 1, values.size() - i + 1));
     }
   }
   return values;
@@ -72,7 +78,8 @@ Profile make_profile(const std::string& name) {
   profile.derivative.resize(Profile::size);
   const auto fill = [&](auto&& f, auto&& derivative) {
     for (int i = 0; i < Profile::size; ++i) {
-      const double phase = 2 * pi * (i <= Profile::size / 2 ? i : i - Profile::size) / Profile::size;  // (−π, π]
+      const double phase =
+          2 * pi * (i <= Profile::size / 2 ? i : i - Profile::size) / Profile::size;  // (−π, π]
       profile.f[static_cast<std::size_t>(i)] = f(phase);
       profile.derivative[static_cast<std::size_t>(i)] = derivative(phase);
     }
@@ -83,7 +90,8 @@ Profile make_profile(const std::string& name) {
   if (name == "sinusoid") {
     fill([](double p) { return std::cos(p); }, [](double p) { return -std::sin(p); });
   } else if (name == "accordion") {
-    fill([](double p) { return 1 - 2 * std::abs(p) / pi; }, [&](double p) { return -2 / pi * sign_inside(p); });
+    fill([](double p) { return 1 - 2 * std::abs(p) / pi; },
+         [&](double p) { return -2 / pi * sign_inside(p); });
   } else if (name == "pencil") {
     fill([](double p) { return 2 * std::cos(p / 2) - 1; },
          [](double p) { return std::abs(p) >= pi ? 0.0 : -std::sin(p / 2); });

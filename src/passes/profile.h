@@ -1,5 +1,6 @@
-// The shape of a wave across its crest: f over one period and its derivative, as tables (Loviscach 2006, 6.3).
-// f is even in the phase, because the sign of a direction is not determined, and runs between −1 and 1.
+// The shape of a wave across its crest: f over one period and its derivative, as tables (Loviscach
+// 2006, 6.3). f is even in the phase, because the sign of a direction is not determined, and runs between −1
+// and 1.
 #pragma once
 
 #include <string>
@@ -14,9 +15,9 @@ struct Profile {
   double slope_variance = 1;         // mean of f'² over the sinusoid's ½
 };
 
-// "sinusoid", "accordion" (straight flanks), "pencil" (round pleats that meet in a crease), or a text file of numbers, one
-// period of f from its crest on, evenly spaced. Throws Error(bad_input) with file and line: not a number, fewer than 4 or
-// more than 65536, not even, constant. A table is scaled to −1…1.
+// "sinusoid", "accordion" (straight flanks), "pencil" (round pleats that meet in a crease), or a text file of
+// numbers, one period of f from its crest on, evenly spaced. Throws Error(bad_input) with file and line: not
+// a number, fewer than 4 or more than 65536, not even, constant. A table is scaled to −1…1.
 Profile make_profile(const std::string& name);
 
 }  // namespace plisse::passes

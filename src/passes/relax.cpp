@@ -38,16 +38,28 @@ void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
     }
   }
   set_count(descent_, surface.vertex_count);
-  glUniform1f(descent_.uniform("step_size"), static_cast<float>(options.epsilon / (2 * glm::pi<double>() * glm::pi<double>())));
+  glUniform1f(descent_.uniform("step_size"),
+              static_cast<float>(options.epsilon / (2 * glm::pi<double>() * glm::pi<double>())));
   for (int i = 0; i < options.rounds; ++i) round(descent_, surface);
 }
 
-void RelaxPass::lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction) {
+void RelaxPass::lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states,
+                     double fraction) {
+  lead(surface, phases, states, fraction, false);
+}
+
+void RelaxPass::begin_as(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states) {
+  lead(surface, phases, states, 1, true);
+}
+
+void RelaxPass::lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states,
+                     double fraction, bool fresh_ones) {
   bind(surface);
   phases.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec2);
   states.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
   set_count(lead_, surface.vertex_count);
   glUniform1f(lead_.uniform("fraction"), static_cast<float>(fraction));
+  glUniform1i(lead_.uniform("fresh_ones"), fresh_ones);
   round(lead_, surface);
 }
 

@@ -10,11 +10,11 @@
 namespace plisse::passes {
 
 struct RelaxOptions {
-  int rounds = 1;               // descent rounds
-  double epsilon = 13.2;        // ε of eq. 6
-  bool onset = true;            // mode `smooth`: rule 3 of the state over time
-  int onset_rounds = 8;         // P
-  int smoothing_rounds = 300;   // S
+  int rounds = 1;              // descent rounds
+  double epsilon = 13.2;       // ε of eq. 6
+  bool onset = true;           // mode `smooth`: rule 3 of the state over time
+  int onset_rounds = 8;        // P
+  int smoothing_rounds = 300;  // S
 };
 
 class RelaxPass {
@@ -22,18 +22,23 @@ class RelaxPass {
   explicit RelaxPass(const std::string& shader_folder);
   // Reads positions, world_waves and surface.counter (the fresh vertices); advances phases.
   void run(SurfaceBuffers& surface, const RelaxOptions& options);
-  // Moves the phases of set vertices by a fraction of their distance to those of another moment (its phases and states), with
-  // which a loop closes.
+  // Moves the phases of set vertices by a fraction of their distance to those of another moment (its phases
+  // and states), with which a loop closes.
   void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction);
+  // Fresh vertices that have a phase in that other moment begin with it, and are set.
+  void begin_as(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states);
   // Vertices that got a phase in the last run: no work is done for them when there are none.
   std::uint32_t fresh_in_last_run() const { return fresh_; }
 
  private:
   void bind(SurfaceBuffers& surface);
-  void round(const gpu::Program& program, SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps
+  void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction,
+            bool fresh_ones);
+  void round(const gpu::Program& program,
+             SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps
   void smooth(SurfaceBuffers& surface, int rounds);
   gpu::Program descent_, spread_, rotors_, smooth_, finish_, lead_;
-  gpu::Buffer numbers_, numbers_next_, rotor_list_;                  // made at the first onset
+  gpu::Buffer numbers_, numbers_next_, rotor_list_;  // made at the first onset
   std::uint32_t fresh_ = 0;
 };
 

@@ -25,9 +25,12 @@ struct SceneBlock {
   glm::vec4 ambient, surface, shadow_texel;
 };
 
-glm::vec4 wide(const glm::dvec3& v, double w = 0) { return {glm::vec3(v), static_cast<float>(w)}; }
+glm::vec4 wide(const glm::dvec3& v, double w = 0) {
+  return {glm::vec3(v), static_cast<float>(w)};
+}
 
-// A parallel projection along `direction` (the way the light goes) that holds the sphere (centre, radius): world → clip.
+// A parallel projection along `direction` (the way the light goes) that holds the sphere (centre, radius):
+// world → clip.
 glm::dmat4 parallel_projection(const glm::dvec3& centre, double radius, const glm::dvec3& direction) {
   const glm::dvec3 helper = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   return glm::ortho(-radius, radius, -radius, radius, 0.0, 2 * radius) *
@@ -38,14 +41,22 @@ glm::dmat4 clip_to_unit() {
   return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(0.5));
 }
 
-void uniform(const gpu::Program& p, const char* name, float value) { glUniform1f(p.uniform(name), value); }
-void uniform(const gpu::Program& p, const char* name, int value) { glUniform1i(p.uniform(name), value); }
-void uniform(const gpu::Program& p, const char* name, const glm::vec2& v) { glUniform2fv(p.uniform(name), 1, &v.x); }
+void uniform(const gpu::Program& p, const char* name, float value) {
+  glUniform1f(p.uniform(name), value);
+}
+void uniform(const gpu::Program& p, const char* name, int value) {
+  glUniform1i(p.uniform(name), value);
+}
+void uniform(const gpu::Program& p, const char* name, const glm::vec2& v) {
+  glUniform2fv(p.uniform(name), 1, &v.x);
+}
 void uniform(const gpu::Program& p, const char* name, const glm::dvec3& v) {
   const glm::vec3 f(v);
   glUniform3fv(p.uniform(name), 1, &f.x);
 }
-void uniform(const gpu::Program& p, const char* name, const glm::vec4& v) { glUniform4fv(p.uniform(name), 1, &v.x); }
+void uniform(const gpu::Program& p, const char* name, const glm::vec4& v) {
+  glUniform4fv(p.uniform(name), 1, &v.x);
+}
 void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
   const glm::mat4 f(m);
   glUniformMatrix4fv(p.uniform(name), 1, GL_FALSE, glm::value_ptr(f));
@@ -68,7 +79,8 @@ struct GroundFrame {
 }  // namespace
 
 RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<DrawPart> parts,
-                       const std::vector<std::vector<TextureLevel>>& textures, const std::string& shader_folder)
+                       const std::vector<std::vector<TextureLevel>>& textures,
+                       const std::string& shader_folder)
     : look_(look), profile_(profile), parts_(std::move(parts)), shader_folder_(shader_folder) {
   gpu::Defines defines;
   if (look.plain) defines.emplace_back("PLAIN", "1");
@@ -113,7 +125,8 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
 }
 
 RenderPass::~RenderPass() {
-  const unsigned textures[] = {profile_texture_, shadow_texture_, top_texture_, ground_textures_[0], ground_textures_[1]};
+  const unsigned textures[] = {profile_texture_, shadow_texture_, top_texture_, ground_textures_[0],
+                               ground_textures_[1]};
   glDeleteTextures(5, textures);
   const unsigned framebuffers[] = {shadow_framebuffer_, top_framebuffer_};
   glDeleteFramebuffers(2, framebuffers);
@@ -145,7 +158,8 @@ void RenderPass::write_scene(const View& view) {
     block.lights[i].colour = wide(view.lights[i].colour);
   }
   block.ambient = wide(view.ambient, look_.sheen);
-  block.surface = glm::vec4(std::pow(look_.roughness, 4), look_.cavity, look_.parallax, profile_.slope_variance);
+  block.surface =
+      glm::vec4(std::pow(look_.roughness, 4), look_.cavity, look_.parallax, profile_.slope_variance);
   block.shadow_texel = glm::vec4(1.0 / shadow_size, shadow_texel_, shadow_offset, 0);
   scene_.write(&block, sizeof block);
   scene_.bind_uniform(1);
@@ -180,7 +194,8 @@ void RenderPass::draw_shadow_map(const SurfaceBuffers& surface, const View& view
   draw(shadow_framebuffer_, shadow_size, light);
   if (look_.ground) {
     // From below, looking up: the nearest surface is the lowest one, its depth the height above the floor.
-    const glm::dvec3 centre = view.bounds_centre + (view.floor + radius - glm::dot(view.bounds_centre, view.up)) * view.up;
+    const glm::dvec3 centre =
+        view.bounds_centre + (view.floor + radius - glm::dot(view.bounds_centre, view.up)) * view.up;
     const glm::dmat4 top = parallel_projection(centre, radius, view.up);
     top_matrix_ = clip_to_unit() * top;
     draw(top_framebuffer_, top_size, top);
@@ -204,12 +219,14 @@ void RenderPass::draw_ground_map(const View& view) {
   uniform(ground_cast_, "map_across", ground.across);
   uniform(ground_cast_, "map_along", ground.along);
   const double range = 2 * 1.02 * view.bounds_radius;
-  uniform(ground_cast_, "heights_per_reach", static_cast<float>(range / (contact_reach * view.bounds_radius)));
+  uniform(ground_cast_, "heights_per_reach",
+          static_cast<float>(range / (contact_reach * view.bounds_radius)));
   run(ground_cast_, ground_textures_[0]);
   ground_blur_.use();
   const double texel = ground.side / ground_size;
   uniform(ground_blur_, "widths",
-          glm::vec2(std::max(0.7, 0.035 * view.bounds_radius / texel), std::max(0.7, 0.06 * view.bounds_radius / texel)));
+          glm::vec2(std::max(0.7, 0.035 * view.bounds_radius / texel),
+                    std::max(0.7, 0.06 * view.bounds_radius / texel)));
   for (int axis = 0; axis < 2; ++axis) {
     glBindTextureUnit(3, ground_textures_[static_cast<std::size_t>(axis)]);
     glUniform2i(ground_blur_.uniform("axis"), axis == 0, axis == 1);
@@ -248,7 +265,8 @@ void RenderPass::draw_parts(const gpu::Program& program, bool blended) {
     uniform(program, "alpha_cutoff", part.alpha_cutoff);
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle), static_cast<GLsizei>(3 * part.triangle_count));
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
+                 static_cast<GLsizei>(3 * part.triangle_count));
   }
   glDisable(GL_CULL_FACE);
 }
@@ -290,7 +308,8 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   gpu::check("while rendering");
 }
 
-void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov) {
+void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                          Aov aov) {
   if (aov_.id() == 0) {
     gpu::Defines defines{{"AOV", "1"}};
     if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
@@ -316,8 +335,8 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
 std::vector<float> RenderPass::shadow_map() const {
   std::vector<float> depths(static_cast<std::size_t>(shadow_size) * shadow_size);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(shadow_texture_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(depths.size() * sizeof(float)),
-                    depths.data());
+  glGetTextureImage(shadow_texture_, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                    static_cast<GLsizei>(depths.size() * sizeof(float)), depths.data());
   return depths;
 }
 

@@ -1,5 +1,5 @@
-// Render: the surface with its wrinkles as shading (docs/passes.md, "Render"; Loviscach 2006, 6), the key light's depth map
-// and the backdrop with its ground.
+// Render: the surface with its wrinkles as shading (docs/passes.md, "Render"; Loviscach 2006, 6), the key
+// light's depth map and the backdrop with its ground.
 #pragma once
 
 #include <array>
@@ -27,27 +27,27 @@ struct View {
   glm::dvec3 eye{0, 0, 1}, forward{0, 0, -1}, up{0, 1, 0};
   std::array<DirectionalLight, 3> lights;  // key, fill, rim
   glm::dvec3 ambient{0.3};
-  glm::dvec3 bounds_centre{0};             // of the whole clip: what the key light's map has to cover
+  glm::dvec3 bounds_centre{0};  // of the whole clip: what the key light's map has to cover
   double bounds_radius = 1;
-  double floor = 0;                        // height of the ground along up
+  double floor = 0;  // height of the ground along up
 };
 
 struct Look {
   bool smooth_blend = true, full_gradient = true;
-  bool plain = false;                      // no waves at all
-  bool phong = false;                      // with plain: textured Phong, the yardstick of the benchmark
+  bool plain = false;  // no waves at all
+  bool phong = false;  // with plain: textured Phong, the yardstick of the benchmark
   bool shadows = false, ground = false, wireframe = false;
   double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;
-  glm::dvec3 background{0.6};              // linear
+  glm::dvec3 background{0.6};  // linear
   bool transparent = false;
 };
 
 struct DrawPart {
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  glm::vec4 base_colour{1};                // linear
+  glm::vec4 base_colour{1};  // linear
   int texture = -1;
-  bool has_alpha = false;                  // blended after the opaque parts
-  float alpha_cutoff = 0;                  // > 0: masked
+  bool has_alpha = false;  // blended after the opaque parts
+  float alpha_cutoff = 0;  // > 0: masked
   bool two_sided = true;
 };
 
@@ -66,11 +66,12 @@ class RenderPass {
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
 
-  // The key light's depth map of the last draw (0…1, rows from bottom to top) and what maps a world point into it.
+  // The key light's depth map of the last draw (0…1, rows from bottom to top) and what maps a world point
+  // into it.
   static constexpr int shadow_size = 1024;
   std::vector<float> shadow_map() const;
   const glm::dmat4& shadow_matrix() const { return shadow_matrix_; }
-  double shadow_texel() const { return shadow_texel_; }   // its size in the world
+  double shadow_texel() const { return shadow_texel_; }  // its size in the world
   static constexpr double shadow_offset = 1e-3;
 
  private:

@@ -16,7 +16,8 @@ class SkinPass {
   // palette_size: matrices a pose has.
   SkinPass(std::size_t palette_size, std::size_t target_count, const std::string& shader_folder);
   // palette: model units, rest → world. Positions and frames of `surface` are overwritten.
-  void run(SurfaceBuffers& surface, const std::vector<glm::dmat4>& palette, const std::vector<double>& target_weights);
+  void run(SurfaceBuffers& surface, const std::vector<glm::dmat4>& palette,
+           const std::vector<double>& target_weights);
   // A vertex cache in place of bones: posed positions in model units.
   void run_cache(SurfaceBuffers& surface, const std::vector<glm::vec4>& positions);
 

@@ -5,7 +5,9 @@
 namespace plisse::passes {
 namespace {
 
-glm::vec4 single(const glm::dvec3& x, double w = 0) { return {glm::vec3(x), static_cast<float>(w)}; }
+glm::vec4 single(const glm::dvec3& x, double w = 0) {
+  return {glm::vec3(x), static_cast<float>(w)};
+}
 
 template <typename Function>
 auto mapped(std::size_t count, Function&& function) {
@@ -28,8 +30,8 @@ struct GpuPlace {
   glm::vec4 point, normal;
 };
 
-// (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone. Zero where no
-// neighbour tells anything: M is then the identity.
+// (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone.
+// Zero where no neighbour tells anything: M is then the identity.
 glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   glm::dmat2 s(0.0);
   for (const auto* v = begin; v != end; ++v) s += glm::outerProduct(*v, *v);
@@ -50,8 +52,8 @@ float initial_phase(std::uint32_t seed, std::uint32_t vertex) {
   return static_cast<float>(turns * glm::two_pi<double>());
 }
 
-SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, const VertexWaves& vertex_waves,
-                               const ModelUnits& units, std::uint32_t seed)
+SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
+                               const VertexWaves& vertex_waves, const ModelUnits& units, std::uint32_t seed)
     : vertex_count(surface.vertex_count()),
       target_count(surface.target_count),
       triangle_count(surface.triangle_count()) {
@@ -59,8 +61,9 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
   bind_places = gpu::Buffer(mapped(count, [&](std::size_t v) {
     return GpuPlace{single(units.rest(surface.bind[v]), 1), single(surface.bind_normal[v])};
   }));
-  influences = gpu::Buffer(mapped(
-      count, [&](std::size_t v) { return GpuInfluences{surface.influences[v].entry, surface.influences[v].weight}; }));
+  influences = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    return GpuInfluences{surface.influences[v].entry, surface.influences[v].weight};
+  }));
   target_deltas = gpu::Buffer(mapped(target_count * count, [&](std::size_t i) {
     return single(glm::dvec3(surface.target_deltas[i]) / units.metres);
   }));
@@ -78,15 +81,18 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest, c
       const glm::dvec2 edge = rest.edge[i], row = inverse * edge;  // metres, 1/metres
       rows[i] = glm::vec4(row * units.metres, edge / units.metres);
     }
-    return glm::vec4(vertex_waves.wavelength[v] / units.metres, vertex_waves.mask[v], vertex_waves.phase_noise[v], 0);
+    return glm::vec4(vertex_waves.wavelength[v] / units.metres, vertex_waves.mask[v],
+                     vertex_waves.phase_noise[v], 0);
   }));
   rest_rows = gpu::Buffer(rows);
 
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];
-    const glm::dvec3 t = rest.tangent[vertex.welded], n = rest.normal[vertex.welded], m = glm::dvec3(vertex.normal);
-    return GpuRenderVertex{glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n), vertex.uv.x),
-                           glm::vec4(vertex.uv.y, 0, 0, 0)};
+    const glm::dvec3 t = rest.tangent[vertex.welded], n = rest.normal[vertex.welded],
+                     m = glm::dvec3(vertex.normal);
+    return GpuRenderVertex{
+        glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n), vertex.uv.x),
+        glm::vec4(vertex.uv.y, 0, 0, 0)};
   }));
   triangle_corners = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
     return GpuCorner{surface.triangles[i], surface.render_vertices[surface.triangles[i]].welded};
@@ -117,6 +123,8 @@ void SurfaceBuffers::bind_for_reading() const {
   states.bind_items(16, Item::vec4);
 }
 
-void SurfaceBuffers::bind_phases_for_reading() const { phases.bind_items(15, gpu::Buffer::Item::vec2); }
+void SurfaceBuffers::bind_phases_for_reading() const {
+  phases.bind_items(15, gpu::Buffer::Item::vec2);
+}
 
 }  // namespace plisse::passes

@@ -1,5 +1,5 @@
-// The welded surface on the GPU: what never changes, what a frame computes, and the memory from frame to frame.
-// Layouts are those of shaders/common/surface.glsl; bindings are given there and in each shader.
+// The welded surface on the GPU: what never changes, what a frame computes, and the memory from frame to
+// frame. Layouts are those of shaders/common/surface.glsl; bindings are given there and in each shader.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace plisse::passes {
 
 struct SurfaceBuffers {
   // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.
-  SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves, const ModelUnits& units,
-                 std::uint32_t seed);
+  SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves,
+                 const ModelUnits& units, std::uint32_t seed);
 
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;

@@ -33,16 +33,22 @@ TextureLevel halved(const TextureLevel& from) {
       for (int j = 0; j < 2; ++j) {
         for (int i = 0; i < 2; ++i) {
           const int sx = std::min(2 * x + i, from.width - 1), sy = std::min(2 * y + j, from.height - 1);
-          const auto* texel = &from.rgba[(static_cast<std::size_t>(sy) * static_cast<std::size_t>(from.width) + static_cast<std::size_t>(sx)) * 4];
+          const auto* texel =
+              &from.rgba[(static_cast<std::size_t>(sy) * static_cast<std::size_t>(from.width) +
+                          static_cast<std::size_t>(sx)) *
+                         4];
           // Transparent texels still count a little, or a wholly transparent block would have no colour.
           const double weight = texel[3] / 255.0 + 1e-6;
           for (std::size_t c = 0; c < 3; ++c) colour[c] += weight * linear[texel[c]];
           alpha += weight;
         }
       }
-      auto* texel = &to.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(x)) * 4];
+      auto* texel = &to.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) +
+                              static_cast<std::size_t>(x)) *
+                             4];
       for (std::size_t c = 0; c < 3; ++c) {
-        texel[c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(1.0, colour[c] / alpha))));
+        texel[c] =
+            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(1.0, colour[c] / alpha))));
       }
       texel[3] = static_cast<std::uint8_t>(std::lround(std::clamp(255 * (alpha - 4e-6) / 4, 0.0, 255.0)));
     }
@@ -58,7 +64,8 @@ std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<st
   return levels;
 }
 
-Texture::Texture(const std::vector<TextureLevel>& levels) : width_(levels.front().width), height_(levels.front().height) {
+Texture::Texture(const std::vector<TextureLevel>& levels)
+    : width_(levels.front().width), height_(levels.front().height) {
   glCreateTextures(GL_TEXTURE_2D, 1, &id_);
   glTextureStorage2D(id_, static_cast<GLsizei>(levels.size()), GL_SRGB8_ALPHA8, width_, height_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -68,9 +75,11 @@ Texture::Texture(const std::vector<TextureLevel>& levels) : width_(levels.front(
     const std::size_t row = static_cast<std::size_t>(level.width) * 4;
     std::vector<std::uint8_t> flipped(level.rgba.size());
     for (std::size_t y = 0; y < static_cast<std::size_t>(level.height); ++y) {
-      std::copy_n(level.rgba.data() + y * row, row, flipped.data() + (static_cast<std::size_t>(level.height) - 1 - y) * row);
+      std::copy_n(level.rgba.data() + y * row, row,
+                  flipped.data() + (static_cast<std::size_t>(level.height) - 1 - y) * row);
     }
-    glTextureSubImage2D(id_, static_cast<GLint>(i), 0, 0, level.width, level.height, GL_RGBA, GL_UNSIGNED_BYTE, flipped.data());
+    glTextureSubImage2D(id_, static_cast<GLint>(i), 0, 0, level.width, level.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, flipped.data());
   }
   glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -90,6 +99,8 @@ Texture& Texture::operator=(Texture&& other) noexcept {
   return *this;
 }
 
-void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), id_); }
+void Texture::bind(int unit) const {
+  glBindTextureUnit(static_cast<GLuint>(unit), id_);
+}
 
 }  // namespace plisse::passes

@@ -1,4 +1,5 @@
-// Base-colour textures: mip levels made here, in linear light, so that every driver and the reference filter the same.
+// Base-colour textures: mip levels made here, in linear light, so that every driver and the reference filter
+// the same.
 #pragma once
 
 #include <cstdint>

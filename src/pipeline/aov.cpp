@@ -17,18 +17,23 @@ namespace plisse::pipeline {
 namespace {
 
 const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names{"height", "normal", "amplitude", "phase", "direction", "tension", "depth"};
+  static const std::vector<std::string> names{"height",    "normal",  "amplitude", "phase",
+                                              "direction", "tension", "depth"};
   return names;
 }
 
-bool is_vector(passes::Aov aov) { return aov == passes::Aov::normal || aov == passes::Aov::direction; }
+bool is_vector(passes::Aov aov) {
+  return aov == passes::Aov::normal || aov == passes::Aov::direction;
+}
 
 // 0…1 for the picture to look at. `scale`: what counts as large for this quantity.
 glm::vec3 shown(passes::Aov aov, const glm::vec3& value, float scale) {
   switch (aov) {
     case passes::Aov::normal:
-    case passes::Aov::direction: return 0.5F * value + 0.5F;
-    case passes::Aov::height: return glm::vec3(0.5F + 0.5F * value.x / scale);
+    case passes::Aov::direction:
+      return 0.5F * value + 0.5F;
+    case passes::Aov::height:
+      return glm::vec3(0.5F + 0.5F * value.x / scale);
     case passes::Aov::phase: {  // a hue circle, so that −π and π look alike
       const auto hue = [&](float shift) { return 0.5F + 0.5F * std::cos(value.x - shift); };
       const float third = 2.0F * std::numbers::pi_v<float> / 3.0F;
@@ -38,7 +43,8 @@ glm::vec3 shown(passes::Aov aov, const glm::vec3& value, float scale) {
       return value.x >= 0 ? glm::vec3(0.75F, 0.75F - 2 * value.x, 0.75F - 2 * value.x)
                           : glm::vec3(0.75F + 2 * value.x, 0.75F + 2 * value.x, 0.75F);
     case passes::Aov::amplitude:
-    case passes::Aov::depth: break;
+    case passes::Aov::depth:
+      break;
   }
   return glm::vec3(value.x / scale);
 }
@@ -50,8 +56,9 @@ std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names) {
   for (const auto& name : names) {
     const auto at = std::find(aov_names().begin(), aov_names().end(), name);
     if (at == aov_names().end()) {
-      throw Error(ExitCode::bad_input, fmt::format("--aov {}: there is no such output{}; there are: {}", name,
-                                                   did_you_mean(name, aov_names()), fmt::join(aov_names(), ", ")));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("--aov {}: there is no such output{}; there are: {}", name,
+                              did_you_mean(name, aov_names()), fmt::join(aov_names(), ", ")));
     }
     aovs.push_back(static_cast<passes::Aov>(at - aov_names().begin()));
   }
@@ -64,12 +71,14 @@ AovWriter::AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::ve
       aovs_(std::move(aovs)),
       target_(scene.settings.output.width, scene.settings.output.height, 1, gpu::Target::Format::rgba32f) {}
 
-void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& frame_path) {
+void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View& view,
+                      const std::string& frame_path) {
   const int width = target_.width(), height = target_.height();
   for (const passes::Aov aov : aovs_) {
     pass_.draw_aov(surface, view, target_, aov);
     const std::vector<float> rgba = target_.read_rgba32f();
-    const bool length = aov == passes::Aov::height || aov == passes::Aov::amplitude || aov == passes::Aov::depth;
+    const bool length =
+        aov == passes::Aov::height || aov == passes::Aov::amplitude || aov == passes::Aov::depth;
     const float unit = length ? static_cast<float>(scene_.units.metres) : 1.0F;
     const int channels = is_vector(aov) ? 3 : 1;
     std::vector<float> values;
@@ -79,13 +88,16 @@ void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View&
       for (int c = 0; c < channels; ++c) values.push_back(rgba[i + static_cast<std::size_t>(c)] * unit);
       largest = std::max(largest, std::abs(rgba[i]) * unit);
     }
-    const float scale = aov == passes::Aov::depth ? std::max(largest, 1e-30F) : static_cast<float>(scene_.wavelength() / 4);
+    const float scale =
+        aov == passes::Aov::depth ? std::max(largest, 1e-30F) : static_cast<float>(scene_.wavelength() / 4);
     io::Image picture{width, height, std::vector<std::uint8_t>(rgba.size())};
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
       const bool covered = rgba[i + 3] > 0;
-      const glm::vec3 value = glm::clamp(shown(aov, glm::vec3(rgba[i], rgba[i + 1], rgba[i + 2]) * unit, scale), 0.0F, 1.0F);
+      const glm::vec3 value =
+          glm::clamp(shown(aov, glm::vec3(rgba[i], rgba[i + 1], rgba[i + 2]) * unit, scale), 0.0F, 1.0F);
       for (int c = 0; c < 3; ++c) {
-        picture.rgba[i + static_cast<std::size_t>(c)] = covered ? static_cast<std::uint8_t>(std::lround(255 * value[c])) : 0;
+        picture.rgba[i + static_cast<std::size_t>(c)] =
+            covered ? static_cast<std::uint8_t>(std::lround(255 * value[c])) : 0;
       }
       picture.rgba[i + 3] = covered ? 255 : 0;
     }

@@ -13,8 +13,8 @@ namespace plisse::pipeline {
 // height, normal, amplitude, phase, direction, tension, depth. Throws Error(bad_input) for another name.
 std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names);
 
-// Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], or 1 − r; 0 where nothing is
-// seen) and `name.height.png` (the same, brought into 0…1).
+// Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], or 1 − r; 0 where
+// nothing is seen) and `name.height.png` (the same, brought into 0…1).
 class AovWriter {
  public:
   AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::vector<passes::Aov> aovs);

@@ -29,7 +29,8 @@ io::ImportOptions options_of(const ModelSettings& model) {
 }
 
 glm::dvec3 linear(const glm::vec3& srgb) {
-  return {srgb_to_linear(static_cast<double>(srgb.r)), srgb_to_linear(static_cast<double>(srgb.g)), srgb_to_linear(static_cast<double>(srgb.b))};
+  return {srgb_to_linear(static_cast<double>(srgb.r)), srgb_to_linear(static_cast<double>(srgb.g)),
+          srgb_to_linear(static_cast<double>(srgb.b))};
 }
 
 Animation::Bounds bounds_of(const std::vector<glm::dvec3>& points) {
@@ -48,7 +49,9 @@ void add_items(Hash& hash, const std::vector<Item>& items) {
   hash.add_bytes({reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(Item)});
 }
 
-void add(Hash& hash, const glm::dvec3& v) { hash.add(v.x).add(v.y).add(v.z); }
+void add(Hash& hash, const glm::dvec3& v) {
+  hash.add(v.x).add(v.y).add(v.z);
+}
 void add(Hash& hash, const glm::dmat4& m) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) hash.add(m[c][r]);
@@ -88,7 +91,12 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   add_items(hash, waves.wavelength);
   add_items(hash, waves.mask);
   const auto& relax = settings.relax;
-  hash.add(relax.mode).add(relax.rounds).add(relax.epsilon).add(relax.interval).add(relax.onset_rounds).add(relax.smoothing_rounds);
+  hash.add(relax.mode)
+      .add(relax.rounds)
+      .add(relax.epsilon)
+      .add(relax.interval)
+      .add(relax.onset_rounds)
+      .add(relax.smoothing_rounds);
   hash.add(settings.wrinkles.dead_zone).add(settings.wrinkles.seed);
   add(hash, units.world_centre);
   hash.add(units.metres);
@@ -126,8 +134,10 @@ std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
       draw.two_sided = material.two_sided;
       draw.texture = textured ? material.base_colour_texture : -1;
       const bool white = glm::vec3(material.base_colour) == glm::vec3(1);
-      if (textured || !white) draw.base_colour = material.base_colour;
-      else draw.base_colour.a = material.base_colour.a;
+      if (textured || !white)
+        draw.base_colour = material.base_colour;
+      else
+        draw.base_colour.a = material.base_colour.a;
       draw.has_alpha = material.alpha == io::Material::Alpha::blend;
       draw.alpha_cutoff = material.alpha == io::Material::Alpha::mask ? material.alpha_cutoff : 0.0F;
     }
@@ -155,9 +165,9 @@ glm::dvec2 half_film(const SceneSettings& settings) {
 
 }  // namespace
 
-// Where no camera is given, or only its direction: the place nearest to the model from which every sampled point of the
-// clip is in the picture. In the camera's own axes a point (x, y) at depth z is seen where |x − s| ≤ (z + d) tan, so each
-// side of the picture is a plane that the points push outward.
+// Where no camera is given, or only its direction: the place nearest to the model from which every sampled
+// point of the clip is in the picture. In the camera's own axes a point (x, y) at depth z is seen where |x −
+// s| ≤ (z + d) tan, so each side of the picture is a plane that the points push outward.
 void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
   CameraSettings& camera = settings.camera;
   if (!camera.name.empty() || camera.explicit_pose) return;
@@ -172,13 +182,15 @@ void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
   for (const glm::dvec3& point : samples) {
     const glm::dvec3 d = point - centre;
     const double x = glm::dot(d, right), y = glm::dot(d, high), z = glm::dot(d, toward);
-    push = glm::max(push, glm::dvec4(x + z * tangent.x, -x + z * tangent.x, y + z * tangent.y, -y + z * tangent.y));
+    push = glm::max(push,
+                    glm::dvec4(x + z * tangent.x, -x + z * tangent.x, y + z * tangent.y, -y + z * tangent.y));
     nearest = std::max(nearest, z);
   }
   const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
   double distance = camera.distance;
   if (distance <= 0) {
-    distance = std::max({0.5 * (push[0] + push[1]) / tangent.x, 0.5 * (push[2] + push[3]) / tangent.y, nearest + 0.01 * radius});
+    distance = std::max({0.5 * (push[0] + push[1]) / tangent.x, 0.5 * (push[2] + push[3]) / tangent.y,
+                         nearest + 0.01 * radius});
   }
   camera.target = centre + 0.5 * (push[0] - push[1]) * right + 0.5 * (push[2] - push[3]) * high;
   camera.eye = camera.target + distance * toward;
@@ -196,12 +208,15 @@ passes::View LoadedScene::view(int frame) const {
     int found = -1;
     for (std::size_t i = 0; i < model.cameras.size(); ++i) {
       names.push_back(model.cameras[i].name);
-      if (model.cameras[i].name == camera.name || std::to_string(i) == camera.name) found = static_cast<int>(i);
+      if (model.cameras[i].name == camera.name || std::to_string(i) == camera.name)
+        found = static_cast<int>(i);
     }
     if (found < 0) {
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: no camera '{}'{}; it has {}", model.path.string(), camera.name, did_you_mean(camera.name, names),
-                              names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: no camera '{}'{}; it has {}", model.path.string(), camera.name,
+                      did_you_mean(camera.name, names),
+                      names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
     }
     const io::Camera& chosen = model.cameras[static_cast<std::size_t>(found)];
     const glm::dmat4 place = animation.node_matrix(chosen.node, frame);
@@ -211,7 +226,8 @@ passes::View LoadedScene::view(int frame) const {
     tan_y = std::tan(chosen.vertical_field_of_view / 2);
     tan_x = tan_y * settings.output.width / settings.output.height;
   }
-  if (std::abs(glm::dot(forward, camera_up)) > 0.9999) camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  if (std::abs(glm::dot(forward, camera_up)) > 0.9999)
+    camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
 
   passes::View view;
   view.eye = units.world(eye);
@@ -237,7 +253,8 @@ passes::View LoadedScene::view(int frame) const {
   const LightSettings& light = settings.light;
   const glm::dvec3 key(light.key_colour), fill(light.fill_colour);
   view.lights[0] = {direction(light.key_azimuth, light.key_elevation), light.key_intensity * key};
-  view.lights[1] = {direction(light.fill_azimuth, light.fill_elevation), light.key_intensity * light.fill_ratio * fill};
+  view.lights[1] = {direction(light.fill_azimuth, light.fill_elevation),
+                    light.key_intensity * light.fill_ratio * fill};
   view.lights[2] = {direction(light.rim_azimuth, light.rim_elevation), light.rim_intensity * glm::dvec3(1)};
   view.ambient = light.ambient * 0.5 * (fill + glm::dvec3(1));
   return view;
@@ -248,7 +265,8 @@ double LoadedScene::lead_at(int step) const {
   if (step <= preroll_ + 1 || preroll_ == 0) return 0;
   const int left = timeline.frame_count - frame_of_step(step);  // frames until the last
   const int reach = std::min(timeline.frame_count / 3, static_cast<int>(timeline.frames_per_second));
-  // Equal shares of the way: what is left over after the last frame is one share, which the first frame makes.
+  // Equal shares of the way: what is left over after the last frame is one share, which the first frame
+  // makes.
   return left < reach ? 1.0 / (left + 2) : 0.0;
 }
 
@@ -289,11 +307,21 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
   add_items(hash, profile.f);
   add_items(hash, profile.derivative);
   for (const auto& vertex : surface().render_vertices) {
-    hash.add(vertex.welded).add(vertex.uv.x).add(vertex.uv.y).add(vertex.normal.x).add(vertex.normal.y).add(vertex.normal.z);
+    hash.add(vertex.welded)
+        .add(vertex.uv.x)
+        .add(vertex.uv.y)
+        .add(vertex.normal.x)
+        .add(vertex.normal.y)
+        .add(vertex.normal.z);
   }
   add_items(hash, surface().triangles);
   for (const auto& part : draw_parts()) {
-    hash.add(part.first_triangle).add(part.triangle_count).add(part.texture).add(part.has_alpha).add(part.alpha_cutoff).add(part.two_sided);
+    hash.add(part.first_triangle)
+        .add(part.triangle_count)
+        .add(part.texture)
+        .add(part.has_alpha)
+        .add(part.alpha_cutoff)
+        .add(part.two_sided);
     for (int i = 0; i < 4; ++i) hash.add(part.base_colour[i]);
   }
   for (const auto& texture : model.textures) {
@@ -309,7 +337,12 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
     add(hash, light.colour);
   }
   const passes::Look l = look();
-  hash.add(l.smooth_blend).add(l.full_gradient).add(l.shadows).add(l.ground).add(l.wireframe).add(l.transparent);
+  hash.add(l.smooth_blend)
+      .add(l.full_gradient)
+      .add(l.shadows)
+      .add(l.ground)
+      .add(l.wireframe)
+      .add(l.transparent);
   hash.add(l.roughness).add(l.cavity).add(l.parallax).add(l.sheen).add(at.floor);
   add(hash, l.background);
   hash.add(settings.output.width).add(settings.output.height).add(settings.output.samples);

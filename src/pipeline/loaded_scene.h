@@ -20,7 +20,7 @@ class LoadedScene {
   // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
   explicit LoadedScene(const SceneSettings& settings);
 
-  SceneSettings settings;        // wavelength and camera resolved
+  SceneSettings settings;  // wavelength and camera resolved
   io::Model model;
   Animation animation;
   RestFrames rest;
@@ -38,8 +38,8 @@ class LoadedScene {
   // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
   int step_of_frame(int frame) const { return preroll_ + frame; }
   int frame_of_step(int step) const { return step <= preroll_ ? step : step - preroll_; }
-  // How a loop closes: the phases of the drawn period's first step are remembered, and in its last frames (a third of the
-  // clip, at most a second) each step moves this share of what is left toward them; 0 elsewhere.
+  // How a loop closes: the phases of the drawn period's first step are remembered, and in its last frames (a
+  // third of the clip, at most a second) each step moves this share of what is left toward them; 0 elsewhere.
   bool remembers_at(int step) const { return preroll_ > 0 && step == preroll_ + 1; }
   double lead_at(int step) const;
   // The pose of a step, asked in order; a step may be asked again until a later one is dropped.
@@ -56,9 +56,9 @@ class LoadedScene {
   int preroll_ = 0;
   Animation::Bounds bounds_;
   Hash state_base_;
-  std::deque<Pose> poses_;       // of steps first_pose_, first_pose_ + 1, …
+  std::deque<Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
   int first_pose_ = 1;
-  std::vector<Hash> chain_;      // after each step
+  std::vector<Hash> chain_;  // after each step
 };
 
 }  // namespace plisse::pipeline

@@ -8,7 +8,9 @@ namespace {
 
 using Eigen::Index;
 
-Eigen::Vector3d eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Eigen::Vector3d eigen(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 Eigen::Matrix4d eigen(const glm::dmat4& m) {
   Eigen::Matrix4d result;
@@ -63,8 +65,8 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   phase_noise = vector(scene.waves.phase_noise);
   initial_phases.resize(static_cast<Index>(count));
   for (std::size_t v = 0; v < count; ++v) {
-    initial_phases[static_cast<Index>(v)] =
-        static_cast<double>(passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
+    initial_phases[static_cast<Index>(v)] = static_cast<double>(
+        passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
   }
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
@@ -108,7 +110,8 @@ reference::WaveField WaveSnapshot::field() const {
   reference::WaveField field;
   field.positions = positions;
   field.wavenumbers.resize(3, positions.cols());
-  for (Index v = 0; v < positions.cols(); ++v) field.wavenumbers.col(v) = frames.basis(v) * wavenumbers.col(v);
+  for (Index v = 0; v < positions.cols(); ++v)
+    field.wavenumbers.col(v) = frames.basis(v) * wavenumbers.col(v);
   field.weights = weights;
   for (const auto& state : states) field.status.push_back(state.status);
   field.phases = phases;
@@ -126,7 +129,8 @@ WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface) {
   snapshot.frames.tangent = columns(count, [&](std::size_t v) { return glm::vec3(frames[2 * v + 1]); });
   const auto n = static_cast<Index>(count);
   snapshot.wavenumbers.resize(2, n);
-  for (auto* values : {&snapshot.heights, &snapshot.weights, &snapshot.phases, &snapshot.compression}) values->resize(n);
+  for (auto* values : {&snapshot.heights, &snapshot.weights, &snapshot.phases, &snapshot.compression})
+    values->resize(n);
   for (std::size_t v = 0; v < count; ++v) {
     const auto i = static_cast<Index>(v);
     snapshot.wavenumbers.col(i) = Eigen::Vector2f(waves[v].x, waves[v].y).cast<double>();
@@ -149,12 +153,16 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
       converted.texels.resize(static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
       for (int y = 0; y < level.height; ++y) {
         for (int x = 0; x < level.width; ++x) {
-          const auto* texel = &level.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x))];
+          const auto* texel =
+              &level.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
+                               static_cast<std::size_t>(x))];
           Eigen::Vector4f value;
           for (int c = 0; c < 3; ++c) value[c] = static_cast<float>(srgb_to_linear(texel[c] / 255.0));
           value[3] = static_cast<float>(texel[3] / 255.0);
           // The reference's row 0 is at v = 0, the bottom of the picture.
-          converted.texels[static_cast<std::size_t>(level.height - 1 - y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)] = value;
+          converted
+              .texels[static_cast<std::size_t>(level.height - 1 - y) * static_cast<std::size_t>(level.width) +
+                      static_cast<std::size_t>(x)] = value;
         }
       }
       texture.levels.push_back(std::move(converted));
@@ -164,8 +172,8 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
   return textures;
 }
 
-reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot, const passes::View& view,
-                               const std::vector<reference::Texture>& textures) {
+reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot,
+                               const passes::View& view, const std::vector<reference::Texture>& textures) {
   const Surface& surface = scene.scene.surface();
   reference::Scene result;
   const auto field = snapshot.field();
@@ -183,7 +191,8 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
       reference::Triangle triangle;
       triangle.material = static_cast<int>(p);
       for (int c = 0; c < 3; ++c) {
-        const RenderVertex& vertex = surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
+        const RenderVertex& vertex =
+            surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
         const auto v = static_cast<Index>(vertex.welded);
         triangle.welded[static_cast<std::size_t>(c)] = vertex.welded;
         triangle.waves.corners.col(c) = snapshot.positions.col(v);
@@ -210,7 +219,8 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
   result.lighting.up = eigen(view.up);
   const auto& shading = scene.scene.settings.shading;
   result.shading.blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
-  result.shading.gradient = shading.gradient == Gradient::full ? reference::Gradient::full : reference::Gradient::paper;
+  result.shading.gradient =
+      shading.gradient == Gradient::full ? reference::Gradient::full : reference::Gradient::paper;
   result.shading.roughness = shading.roughness;
   result.shading.sheen = shading.sheen;
   result.shading.cavity = shading.cavity;
@@ -238,8 +248,8 @@ void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
   now_.positions = scene_.positions(pose);
   now_.frames = scene_.frames(pose, now_.positions);
   if (!with_crush) return;
-  const auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames, scene_.wavelength,
-                                        scene_.mask, scene_.crush, now_.states);
+  const auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
+                                        scene_.wavelength, scene_.mask, scene_.crush, now_.states);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
     now_.wavenumbers.col(i) = crushed[v].wavenumber;
@@ -248,19 +258,25 @@ void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
     now_.compression[i] = 1 - crushed[v].r;
     now_.states[v] = {crushed[v].direction, crushed[v].status};
   }
+  const double share = scene_.scene.lead_at(step);
+  if (share > 0) lead(reference::Status::fresh, 1);
   reference::WaveField field = now_.field();
   reference::relax(scene_.topology, field, scene_.relax);
   now_.phases = field.phases;
   for (std::size_t v = 0; v < now_.states.size(); ++v) now_.states[v].status = field.status[v];
-  const double share = scene_.scene.lead_at(step);
-  if (share == 0) return;
+  if (share > 0) lead(reference::Status::set, share);
+}
+
+void ReferenceChain::lead(reference::Status which, double share) {
   for (std::size_t v = 0; v < now_.states.size(); ++v) {
-    const auto &own = now_.states[v], &aim = remembered_.states[v];
-    if (own.status != reference::Status::set || aim.status != reference::Status::set) continue;
+    auto& own = now_.states[v];
+    const auto& aim = remembered_.states[v];
+    if (own.status != which || aim.status != reference::Status::set) continue;
     const auto i = static_cast<Index>(v);
     const double sign = own.direction.dot(aim.direction) < 0 ? -1 : 1;
     now_.phases[i] = reference::wrap_radians(
         now_.phases[i] + share * reference::wrap_radians(sign * remembered_.phases[i] - now_.phases[i]));
+    own.status = reference::Status::set;
   }
 }
 

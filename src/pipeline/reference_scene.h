@@ -1,5 +1,5 @@
-// A scene as the double-precision reference sees it: conversions from the pipeline's data and from what the GPU holds, and
-// the whole chain of passes stepped in the reference.
+// A scene as the double-precision reference sees it: conversions from the pipeline's data and from what the
+// GPU holds, and the whole chain of passes stepped in the reference.
 #pragma once
 
 #include <vector>
@@ -16,13 +16,13 @@ namespace plisse::pipeline {
 // Everything in model units, as in the passes.
 struct ReferenceScene {
   explicit ReferenceScene(const LoadedScene& scene);
-  reference::SkinPose pose(const Pose& pose) const;                 // palette and morph weights
-  Eigen::Matrix3Xd positions(const Pose& pose) const;               // x', from bones or cache
+  reference::SkinPose pose(const Pose& pose) const;    // palette and morph weights
+  Eigen::Matrix3Xd positions(const Pose& pose) const;  // x', from bones or cache
   reference::Frames frames(const Pose& pose, const Eigen::Matrix3Xd& positions) const;
 
   const LoadedScene& scene;
   reference::Topology topology;
-  reference::Frames rest_frames;                     // those the passes were given
+  reference::Frames rest_frames;  // those the passes were given
   std::vector<std::uint32_t> tangent_neighbour;
   reference::SkinModel skin;
   Eigen::VectorXd wavelength, mask, phase_noise, initial_phases;
@@ -34,9 +34,9 @@ struct ReferenceScene {
 struct WaveSnapshot {
   Eigen::Matrix3Xd positions;
   reference::Frames frames;
-  Eigen::Matrix2Xd wavenumbers;      // κ in (t', b')
+  Eigen::Matrix2Xd wavenumbers;  // κ in (t', b')
   Eigen::VectorXd heights, weights, phases;
-  Eigen::VectorXd compression;       // s = 1 − r
+  Eigen::VectorXd compression;  // s = 1 − r
   std::vector<reference::CrushState> states;
 
   reference::WaveField field() const;  // world wavenumbers from the components
@@ -44,8 +44,8 @@ struct WaveSnapshot {
 WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface);
 
 // The picture of a snapshot. Textures are converted once and kept by the caller.
-reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot, const passes::View& view,
-                               const std::vector<reference::Texture>& textures);
+reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot,
+                               const passes::View& view, const std::vector<reference::Texture>& textures);
 std::vector<reference::Texture> reference_textures(const LoadedScene& scene);
 
 // All passes in double precision, each fed by the one before.
@@ -60,6 +60,7 @@ class ReferenceChain {
   const ReferenceScene& scene_;
   WaveSnapshot now_;
   void advance(int step, const Pose& pose, bool with_crush);
+  void lead(reference::Status which, double share);
   std::vector<Pose> last_;  // at most one
   WaveSnapshot remembered_;
 };

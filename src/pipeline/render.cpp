@@ -1,5 +1,5 @@
-// The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads that encode
-// and write while the next one is drawn.
+// The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads
+// that encode and write while the next one is drawn.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -25,7 +25,8 @@ namespace plisse {
 namespace {
 
 double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 // Encodes and writes frames on threads of its own, a few at a time: more would only hold memory.
@@ -116,7 +117,8 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   report.wavelength_m = scene.wavelength();
   report.frames.resize(frames.size());
 
-  // Everything that only drawing needs is made when the first frame is drawn: a run that finds all frames done is quick.
+  // Everything that only drawing needs is made when the first frame is drawn: a run that finds all frames
+  // done is quick.
   std::optional<pipeline::Stepper> stepper;
   std::optional<passes::RenderPass> pass;
   std::optional<gpu::Target> target;
@@ -158,12 +160,18 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         continue;
       }
       if (exists && !request.overwrite && !request.skip_existing) {
-        throw Error(ExitCode::no_output, fmt::format("{} exists already; --overwrite replaces it, --skip-existing keeps frames that are whole", entry.path));
+        throw Error(
+            ExitCode::no_output,
+            fmt::format(
+                "{} exists already; --overwrite replaces it, --skip-existing keeps frames that are whole",
+                entry.path));
       }
       if (!stepper) {
         stepper.emplace(scene, timer, request.shader_folder);
-        if (!request.state_file.empty()) stepper->read_state(request.state_file, driver, scene.step_of_frame(frame));
-        pass.emplace(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), request.shader_folder);
+        if (!request.state_file.empty())
+          stepper->read_state(request.state_file, driver, scene.step_of_frame(frame));
+        pass.emplace(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(),
+                     request.shader_folder);
         target.emplace(output.width, output.height, output.samples, gpu::Target::Format::srgb8);
         if (!aovs.empty()) aov_writer.emplace(scene, *pass, aovs);
       }
@@ -172,7 +180,8 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       stepper->advance_to(step);
       const passes::View view = scene.view(frame);
       io::Image picture;
-      const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before && scene.settings.camera.name.empty();
+      const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before &&
+                        scene.settings.camera.name.empty();
       if (same) {
         picture = last_picture;
       } else {

@@ -77,11 +77,13 @@ void Stepper::advance_to(int step) {
       skin(pose);
       observe(Stage::posed);
       if (crush_runs_at(step_)) {
+        const double share = scene_.lead_at(step_);
         crush();
+        if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);
         observe(Stage::crushed);
         relax();
         observe(Stage::relaxed);
-        if (const double share = scene_.lead_at(step_); share > 0) relax_.lead(surface_, remembered_phases_, remembered_states_, share);
+        if (share > 0) relax_.lead(surface_, remembered_phases_, remembered_states_, share);
       }
       last_pose_ = pose;
     }
@@ -104,12 +106,16 @@ struct StateHeader {
   char check[32];  // of the bytes that follow
 };
 
-Hash keyed(Hash history, const Hash& driver) { return history.add(driver.hex()); }
+Hash keyed(Hash history, const Hash& driver) {
+  return history.add(driver.hex());
+}
 }  // namespace
 
 void Stepper::write_state(const std::filesystem::path& path, const Hash& driver) {
   std::vector<std::uint8_t> content;
-  for (const gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames, &remembered_phases_, &remembered_states_}) {
+  for (const gpu::Buffer* buffer :
+       {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions,
+        &surface_.frames, &remembered_phases_, &remembered_states_}) {
     const auto bytes = buffer->read<std::uint8_t>();
     content.insert(content.end(), bytes.begin(), bytes.end());
   }
@@ -137,12 +143,14 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
   StateHeader header{};
   if (file.size() < sizeof header) return refuse("not a state file of plisse");
   std::memcpy(&header, file.data(), sizeof header);
-  if (std::memcmp(header.magic, magic, sizeof magic) != 0) return refuse("not a state file of this version of plisse");
+  if (std::memcmp(header.magic, magic, sizeof magic) != 0)
+    return refuse("not a state file of this version of plisse");
   const std::span<const std::uint8_t> content(file.data() + sizeof header, file.size() - sizeof header);
   Hash check;
   check.add_bytes(content);
   if (check.hex() != std::string(header.check, 32)) return refuse("damaged (its check sum is wrong)");
-  if (header.vertices != surface_.vertex_count || header.step < 1 || header.step > scene_.step_of_frame(scene_.animation.timeline().frame_count)) {
+  if (header.vertices != surface_.vertex_count || header.step < 1 ||
+      header.step > scene_.step_of_frame(scene_.animation.timeline().frame_count)) {
     return refuse("made from another model");
   }
   if (header.step > last_usable_step) return refuse("made after the first frame that is wanted");
@@ -150,7 +158,9 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
     return refuse("made with other settings, another model or another driver");
   }
   std::size_t at = 0;
-  for (gpu::Buffer* buffer : {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions, &surface_.frames, &remembered_phases_, &remembered_states_}) {
+  for (gpu::Buffer* buffer :
+       {&surface_.states, &surface_.waves, &surface_.phases, &surface_.world_waves, &surface_.positions,
+        &surface_.frames, &remembered_phases_, &remembered_states_}) {
     if (at + buffer->bytes() > content.size()) return refuse("too short");
     buffer->write(content.data() + at, buffer->bytes());
     at += buffer->bytes();

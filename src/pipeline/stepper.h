@@ -1,5 +1,5 @@
-// The passes' memory over time on the GPU (docs/contract.md, "State over time"): steps a scene's history in order, so that
-// a frame does not depend on which frames were asked for.
+// The passes' memory over time on the GPU (docs/contract.md, "State over time"): steps a scene's history in
+// order, so that a frame does not depend on which frames were asked for.
 #pragma once
 
 #include <filesystem>
@@ -35,12 +35,13 @@ class Stepper {
   // Positions, frames, waves and phases of the current step.
   passes::SurfaceBuffers& surface() { return surface_; }
 
-  // Called inside a step, after the stage named, for who wants to look between the passes. `posed`: skin is done.
+  // Called inside a step, after the stage named, for who wants to look between the passes. `posed`: skin is
+  // done.
   enum class Stage { posed, crushed, relaxed };
   std::function<void(Stage)> observer;
 
-  // The state under a name, keyed by everything that led to it. Reading returns whether it fitted; if not, a warning says
-  // why and nothing changed.
+  // The state under a name, keyed by everything that led to it. Reading returns whether it fitted; if not, a
+  // warning says why and nothing changed.
   void write_state(const std::filesystem::path& path, const Hash& driver);
   bool read_state(const std::filesystem::path& path, const Hash& driver, int last_usable_step);
 
@@ -55,7 +56,8 @@ class Stepper {
   passes::SkinPass skin_;
   passes::CrushPass crush_;
   passes::RelaxPass relax_;
-  gpu::Buffer remembered_phases_, remembered_states_;  // of the drawn period's first step, where a loop has to close
+  gpu::Buffer remembered_phases_,
+      remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
   std::optional<Pose> last_pose_;
   bool unchanged_ = false;

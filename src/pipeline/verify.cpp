@@ -1,6 +1,6 @@
-// Shader against reference, pass by pass: each pass of the reference is fed what the GPU's own pass was fed, so that the
-// error of one is not charged to the next (docs/contract.md, "State over time", rule 6). The drift of the whole chain is
-// reported apart.
+// Shader against reference, pass by pass: each pass of the reference is fed what the GPU's own pass was fed,
+// so that the error of one is not charged to the next (docs/contract.md, "State over time", rule 6). The
+// drift of the whole chain is reported apart.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,30 +23,37 @@ using pipeline::ReferenceScene;
 using pipeline::WaveSnapshot;
 using reference::Status;
 
-// --- tolerances, and why ------------------------------------------------------------------------------------------------
-// Single precision keeps 6e-8 of a number; a sum over eight influences of products of three keeps about ten times that.
-constexpr double skin_tolerance = 1e-6;        // of the bounding box
-// n' and t' come from differences of positions, which lose the ratio of edge to box, 1e-2 and less: 1e-7 / 1e-2, times ten.
-constexpr double frame_tolerance = 1e-4;       // of a unit vector, where the areas do not cancel below 1e-2
+// --- tolerances, and why
+// ------------------------------------------------------------------------------------------------ Single
+// precision keeps 6e-8 of a number; a sum over eight influences of products of three keeps about ten times
+// that.
+constexpr double skin_tolerance = 1e-6;  // of the bounding box
+// n' and t' come from differences of positions, which lose the ratio of edge to box, 1e-2 and less: 1e-7 /
+// 1e-2, times ten.
+constexpr double frame_tolerance = 1e-4;  // of a unit vector, where the areas do not cancel below 1e-2
 // The same differences, squared by the regression.
 constexpr double r_tolerance = 1e-5;
 // dh/dr = (W/4) r/√(1−r²): 2.5 at the edge of the default dead zone.
-constexpr double height_tolerance = 1e-5;      // of W, outside the dead zone
+constexpr double height_tolerance = 1e-5;  // of W, outside the dead zone
 // Inside it the easing is steep: dh/dr reaches (W/4)√(2δ) · 3/δ, 15 W at δ = .005, times errors of 1e-6 in r.
-constexpr double easing_tolerance = 1e-4;      // of W
-// A direction is as certain as the gap between the singular values: errors of 1e-6 over the gap, weighted by it again.
+constexpr double easing_tolerance = 1e-4;  // of W
+// A direction is as certain as the gap between the singular values: errors of 1e-6 over the gap, weighted by
+// it again.
 constexpr double wave_vector_tolerance = 1e-4;
-// Ten rounds multiply errors of 1e-6 turns by the rounds and the neighbours; where |d| passes ½ the wrap may differ.
-constexpr double phase_tolerance = 1e-3;       // rad
-constexpr double phase_fraction = 0.999;       // of wrinkled vertices
+// Ten rounds multiply errors of 1e-6 turns by the rounds and the neighbours; where |d| passes ½ the wrap may
+// differ.
+constexpr double phase_tolerance = 1e-3;  // rad
+constexpr double phase_fraction = 0.999;  // of wrinkled vertices
 constexpr int phase_rounds = 10;
 // Eight bits keep ½ of 255; interpolation and texture filtering of drivers keep about eight bits themselves.
-constexpr int image_tolerance = 4;             // of 255
+constexpr int image_tolerance = 4;  // of 255
 constexpr double image_fraction = 0.9975;
 constexpr double flip_tolerance = 0.02;
-constexpr int largest_side = 640;              // of the pictures compared: the reference is no renderer for 4k
+constexpr int largest_side = 640;  // of the pictures compared: the reference is no renderer for 4k
 
-double wrapped_difference(double a, double b) { return std::remainder(a - b, 2 * reference::pi); }
+double wrapped_difference(double a, double b) {
+  return std::remainder(a - b, 2 * reference::pi);
+}
 
 // Gathers the errors of one kind over vertices and frames.
 class Tally {
@@ -72,7 +79,8 @@ class Tally {
 };
 
 // How well the posed triangles determine a normal: |Σ areas| over Σ |e||e|.
-double normal_certainty(const reference::Topology& topology, const Eigen::Matrix3Xd& positions, Index vertex) {
+double normal_certainty(const reference::Topology& topology, const Eigen::Matrix3Xd& positions,
+                        Index vertex) {
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   double size = 0;
   for (const Corner& corner : reference::row(topology.corners, vertex)) {
@@ -84,13 +92,14 @@ double normal_certainty(const reference::Topology& topology, const Eigen::Matrix
   return size > 0 ? area.norm() / size : 0;
 }
 
-io::Image to_image(const std::vector<Eigen::Vector3d>& linear, const io::Image& backdrop, const std::vector<int>& triangle) {
+io::Image to_image(const std::vector<Eigen::Vector3d>& linear, const io::Image& backdrop,
+                   const std::vector<int>& triangle) {
   io::Image image = backdrop;
   for (std::size_t i = 0; i < linear.size(); ++i) {
     if (triangle[i] < 0) continue;
     for (int c = 0; c < 3; ++c) {
-      image.rgba[4 * i + static_cast<std::size_t>(c)] =
-          static_cast<std::uint8_t>(std::lround(255 * reference::srgb_encode(std::clamp(linear[i][c], 0.0, 1.0))));
+      image.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(
+          std::lround(255 * reference::srgb_encode(std::clamp(linear[i][c], 0.0, 1.0))));
     }
     image.rgba[4 * i + 3] = 255;
   }
@@ -121,7 +130,8 @@ class Verifier {
     for (int step = 1; step <= last && !interrupted(); ++step) {
       const int frame = scene_.frame_of_step(step);
       pose_ = scene_.pose(step);
-      looking_ = step == scene_.step_of_frame(frame) && std::binary_search(report.frames.begin(), report.frames.end(), frame);
+      looking_ = step == scene_.step_of_frame(frame) &&
+                 std::binary_search(report.frames.begin(), report.frames.end(), frame);
       before_ = looking_ ? pipeline::read_snapshot(stepper_.surface()) : WaveSnapshot{};
       chain_.step(step, pose_, stepper_.crush_runs_at(step));
       stepper_.advance_to(step);
@@ -139,7 +149,8 @@ class Verifier {
  private:
   static SceneSettings small(SceneSettings settings) {
     auto& output = settings.output;
-    const double scale = static_cast<double>(largest_side) / std::max({output.width, output.height, largest_side});
+    const double scale =
+        static_cast<double>(largest_side) / std::max({output.width, output.height, largest_side});
     output.width = std::max(1, static_cast<int>(output.width * scale));
     output.height = std::max(1, static_cast<int>(output.height * scale));
     output.transparent = false;
@@ -164,13 +175,17 @@ class Verifier {
     if (!looking_) return;
     const WaveSnapshot now = pipeline::read_snapshot(stepper_.surface());
     switch (stage) {
-      case pipeline::Stepper::Stage::posed: compare_skin(now); break;
+      case pipeline::Stepper::Stage::posed:
+        compare_skin(now);
+        break;
       case pipeline::Stepper::Stage::crushed:
         compare_crush(now);
         crushed_ = now;
         compare_ten_rounds();
         break;
-      case pipeline::Stepper::Stage::relaxed: compare_relax(crushed_, now, reference_.relax, relax_); break;
+      case pipeline::Stepper::Stage::relaxed:
+        compare_relax(crushed_, now, reference_.relax, relax_);
+        break;
     }
   }
 
@@ -183,15 +198,20 @@ class Verifier {
       if (normal_certainty(reference_.topology, gpu.positions, v) < 1e-2) continue;
       frame_.add((frames.normal.col(v) - gpu.frames.normal.col(v)).norm());
       // The tangent's own condition: how much of its edge lies in the tangent plane.
-      const Eigen::Vector3d edge = gpu.positions.col(reference_.tangent_neighbour[static_cast<std::size_t>(v)]) - gpu.positions.col(v);
-      const double part = edge.norm() > 0 ? (edge - edge.dot(frames.normal.col(v)) * frames.normal.col(v)).norm() / edge.norm() : 0;
+      const Eigen::Vector3d edge =
+          gpu.positions.col(reference_.tangent_neighbour[static_cast<std::size_t>(v)]) - gpu.positions.col(v);
+      const double part =
+          edge.norm() > 0
+              ? (edge - edge.dot(frames.normal.col(v)) * frames.normal.col(v)).norm() / edge.norm()
+              : 0;
       if (part > 1e-2) frame_.add((frames.tangent.col(v) - gpu.frames.tangent.col(v)).norm());
     }
   }
 
   void compare_crush(const WaveSnapshot& gpu) {
-    const auto expected = reference::crush(reference_.topology, reference_.rest_frames, gpu.positions, gpu.frames,
-                                           reference_.wavelength, reference_.mask, reference_.crush, before_.states);
+    const auto expected =
+        reference::crush(reference_.topology, reference_.rest_frames, gpu.positions, gpu.frames,
+                         reference_.wavelength, reference_.mask, reference_.crush, before_.states);
     for (std::size_t v = 0; v < expected.size(); ++v) {
       const auto& e = expected[v];
       const auto i = static_cast<Index>(v);
@@ -203,11 +223,13 @@ class Verifier {
       // At its first taking a direction's sign is free.
       if (before_.states[v].direction.norm() == 0 && own.dot(e.wave_vector) < 0) own = -own;
       // A dot product of 0 decides the sign: where it is that close, either is right.
-      wave_vector_.add(e.gap * std::min((own - e.wave_vector).norm(), (own + e.wave_vector).norm()) / std::max(1.0, e.wave_vector.norm()));
+      wave_vector_.add(e.gap * std::min((own - e.wave_vector).norm(), (own + e.wave_vector).norm()) /
+                       std::max(1.0, e.wave_vector.norm()));
     }
   }
 
-  void compare_relax(const WaveSnapshot& before, const WaveSnapshot& after, const reference::RelaxSettings& settings, Tally& tally) {
+  void compare_relax(const WaveSnapshot& before, const WaveSnapshot& after,
+                     const reference::RelaxSettings& settings, Tally& tally) {
     reference::WaveField field = before.field();
     reference::relax(reference_.topology, field, settings);
     for (Index v = 0; v < field.phases.size(); ++v) {
@@ -237,7 +259,8 @@ class Verifier {
     reference::Scene scene = pipeline::picture_scene(reference_, snapshot, view, textures_);
     if (look().shadows) {
       reference::ShadowMap map;
-      const glm::dmat4 to_clip = glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1) * render_.shadow_matrix();
+      const glm::dmat4 to_clip =
+          glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1) * render_.shadow_matrix();
       for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 4; ++r) map.matrix(r, c) = to_clip[c][r];
       }
@@ -278,7 +301,9 @@ class Verifier {
     double squares = 0, count = 0;
     for (Index v = 0; v < chain.phases.size(); ++v) {
       const auto i = static_cast<std::size_t>(v);
-      if (chain.states[i].status != Status::set || gpu.states[i].status != Status::set || !(chain.weights[v] > 0)) continue;
+      if (chain.states[i].status != Status::set || gpu.states[i].status != Status::set ||
+          !(chain.weights[v] > 0))
+        continue;
       // Both signs of a direction are the same wave with the phase's sign turned.
       const double sign = chain.states[i].direction.dot(gpu.states[i].direction) < 0 ? -1 : 1;
       const double difference = wrapped_difference(sign * gpu.phases[v], chain.phases[v]);
@@ -287,7 +312,8 @@ class Verifier {
     }
     if (count > 0) chain_phase_ = std::max(chain_phase_, std::sqrt(squares / count));
     const reference::Picture whole = reference_picture(chain, view);
-    chain_flip_ = std::max(chain_flip_, io::flip(to_image(whole.colour, picture, whole.triangle), picture, mask).mean);
+    chain_flip_ =
+        std::max(chain_flip_, io::flip(to_image(whole.colour, picture, whole.triangle), picture, mask).mean);
   }
 
   void finish(VerifyReport& report) {
@@ -300,18 +326,20 @@ class Verifier {
     report.passes["relax"] = relax_.comparison(phase_fraction);
     report.passes["relax.ten_rounds"] = ten_rounds_.comparison(phase_fraction);
     PassComparison crush = report.passes["crush.r"];
-    crush.ok = crush.ok && report.passes["crush.height"].ok && report.passes["crush.easing"].ok && report.passes["crush.wave_vector"].ok;
+    crush.ok = crush.ok && report.passes["crush.height"].ok && report.passes["crush.easing"].ok &&
+               report.passes["crush.wave_vector"].ok;
     report.passes["crush"] = crush;
     report.passes["render"] = image_.comparison(image_fraction);
     report.fraction_within_4 = image_.within();
     report.mean_flip = flip_;
-    report.silhouette_fraction = covered_ > 0 ? static_cast<double>(silhouettes_) / static_cast<double>(covered_) : 0;
+    report.silhouette_fraction =
+        covered_ > 0 ? static_cast<double>(silhouettes_) / static_cast<double>(covered_) : 0;
     report.chain_phase_rms = chain_phase_;
     report.chain_image_flip = chain_flip_;
     for (const auto& [name, comparison] : report.passes) {
       if (comparison.ok) continue;
-      report.failures.push_back(fmt::format("{}: largest error {:.3g} {}, tolerance {:.3g}", name, comparison.max_abs,
-                                            comparison.unit, comparison.tolerance));
+      report.failures.push_back(fmt::format("{}: largest error {:.3g} {}, tolerance {:.3g}", name,
+                                            comparison.max_abs, comparison.unit, comparison.tolerance));
     }
     if (flip_ > flip_tolerance) {
       report.failures.push_back(fmt::format("render: mean FLIP {:.4f}, tolerance {}", flip_, flip_tolerance));
@@ -335,7 +363,8 @@ class Verifier {
   bool looking_ = false;
   WaveSnapshot before_, crushed_;
   Tally skin_{skin_tolerance, "of the bounding box"}, frame_{frame_tolerance, "of a unit vector"};
-  Tally r_{r_tolerance, ""}, height_{height_tolerance, "of W"}, easing_{easing_tolerance, "of W"}, wave_vector_{wave_vector_tolerance, "times the gap"};
+  Tally r_{r_tolerance, ""}, height_{height_tolerance, "of W"}, easing_{easing_tolerance, "of W"},
+      wave_vector_{wave_vector_tolerance, "times the gap"};
   Tally relax_{phase_tolerance, "rad"}, ten_rounds_{phase_tolerance, "rad"};
   Tally image_{image_tolerance, "of 255"};
   double flip_ = 0, chain_phase_ = 0, chain_flip_ = 0;
@@ -344,6 +373,8 @@ class Verifier {
 
 }  // namespace
 
-VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame) { return Verifier(request).run(on_frame); }
+VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame) {
+  return Verifier(request).run(on_frame);
+}
 
 }  // namespace plisse

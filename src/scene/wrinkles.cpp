@@ -26,7 +26,8 @@ std::set<std::uint32_t> vertices_of(const Surface& surface, bool wrinkling) {
   std::set<std::uint32_t> ids;
   for (const Part& part : surface.parts) {
     if (part.wrinkles != wrinkling) continue;
-    for (std::size_t i = 3 * std::size_t{part.first_triangle}; i < 3 * std::size_t{part.first_triangle + part.triangle_count}; ++i) {
+    for (std::size_t i = 3 * std::size_t{part.first_triangle};
+         i < 3 * std::size_t{part.first_triangle + part.triangle_count}; ++i) {
       ids.insert(surface.render_vertices[surface.triangles[i]].welded);
     }
   }
@@ -62,7 +63,8 @@ std::vector<double> distance_from_stiff(const Surface& surface, double reach) {
 double noise(const glm::dvec3& x, std::uint32_t seed, int channel) {
   // Gradient noise is 0 on its lattice: an offset keeps regular meshes off it.
   const glm::vec3 p(x + glm::dvec3(0.37 + 17.0 * channel, 0.61, 0.83));
-  const double value = static_cast<double>(stb_perlin_noise3_seed(p.x, p.y, p.z, 0, 0, 0, static_cast<int>(seed & 0xffU)));
+  const double value =
+      static_cast<double>(stb_perlin_noise3_seed(p.x, p.y, p.z, 0, 0, 0, static_cast<int>(seed & 0xffU)));
   return std::clamp(1.6 * value, -1.0, 1.0);
 }
 
@@ -84,8 +86,9 @@ void select_parts(Surface& surface, const WrinkleSettings& settings) {
     }
   }
   const auto named = [](const Part& part, const std::vector<std::string>& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const std::string& name) { return name == part.mesh || name == part.material_name; });
+    return std::any_of(list.begin(), list.end(), [&](const std::string& name) {
+      return name == part.mesh || name == part.material_name;
+    });
   };
   for (Part& part : surface.parts) {
     part.wrinkles = (settings.only.empty() || named(part, settings.only)) && !named(part, settings.exclude);
@@ -124,7 +127,8 @@ VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings
     if (settings.irregularity > 0) {
       const glm::dvec3 x = surface.rest[v] / (3 * wavelength);
       waves.wavelength[v] *= 1 + 0.25 * settings.irregularity * noise(x, settings.seed, 0);
-      waves.phase_noise[v] = 0.25 * settings.irregularity * glm::two_pi<double>() * noise(x, settings.seed, 1);
+      waves.phase_noise[v] =
+          0.25 * settings.irregularity * glm::two_pi<double>() * noise(x, settings.seed, 1);
     }
   }
   return waves;

@@ -1,4 +1,5 @@
-// Where a surface wrinkles and how: selection of parts, wavelength, the fade toward stiff parts, irregularity.
+// Where a surface wrinkles and how: selection of parts, wavelength, the fade toward stiff parts,
+// irregularity.
 #pragma once
 
 #include "config/settings.h"
@@ -7,16 +8,17 @@
 
 namespace plisse {
 
-// Switches off the parts that --only and --exclude leave out. Throws Error(bad_input) for a name that is neither a mesh
-// nor a material, listing those there are.
+// Switches off the parts that --only and --exclude leave out. Throws Error(bad_input) for a name that is
+// neither a mesh nor a material, listing those there are.
 void select_parts(Surface& surface, const WrinkleSettings& settings);
 
-// W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest diagonal.
+// W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
+// diagonal.
 double default_wavelength(const Surface& surface);
 
-// The wrinkles of every vertex: mask fades from 0 on parts switched off to the strength within one wavelength along the
-// edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and phase by up to a quarter,
-// smoothly over about three wavelengths. Needs surface.neighbours.
+// The wrinkles of every vertex: mask fades from 0 on parts switched off to the strength within one wavelength
+// along the edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and phase by
+// up to a quarter, smoothly over about three wavelengths. Needs surface.neighbours.
 VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings, double wavelength);
 
 }  // namespace plisse

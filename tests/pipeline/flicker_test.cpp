@@ -171,8 +171,12 @@ TEST_F(Flicker, HeightsAndDirectionsOfALoopClose) {
 TEST_F(Flicker, PhasesOfALoopClose) {
   for (const std::string name : {"sleeve", "shirt"}) {
     History history(load_scene(test::asset(name + ".toml")));
-    const Readings first = history.at(1);
+    Readings first = history.at(1);
     const Readings last = history.at(history.scene.animation.timeline().frame_count);
+    for (std::size_t v = 0; v < first.phase.size(); ++v) {
+      // A direction may turn over in a whole period: the same wave with the phase's sign turned.
+      if (glm::dot(first.direction[v], last.direction[v]) < 0) first.phase[v] = -first.phase[v];
+    }
     const Change seam = change(history.scene.surface(), last, first);
     EXPECT_GT(seam.vertices, 20) << name;
     EXPECT_LT(seam.phase, 0.35) << name;
