@@ -18,7 +18,9 @@ int fail(plisse::ExitCode code, const char* text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of writing with a text and a code, not a signal
+  // A closed pipe and a file that may not grow are errors of writing, with a text and a code, not signals.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return plisse::cli::run(argc, argv);
   } catch (const plisse::Error& error) {
