@@ -9,7 +9,7 @@ uniform vec4 base_colour;
 uniform vec2 texture_size;
 layout(location = 0) out vec4 colour;
 void main() {
-    vec3 v = normalize(eye.xyz - x), n = normalize(normal);
+    vec3 v = normalize(to_eye), n = normalize(normal);
     if (dot(n, v) < 0.0) n = -n;
     vec4 albedo = base_colour;
     if (texture_size.x > 0.0) albedo *= texture(base_colour_map, uv);

@@ -1,18 +1,19 @@
 // Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
-// texture (eq. 10, 11). docs/passes.md, "Render". PLAIN: the same surface without waves.
+// texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; SINUSOID, whose profile
+// needs no table; ALPHA, for materials that are masked or blended (a discard, though never taken, costs 8 %).
 #include "common/constants.glsl"
-#include "common/shading.glsl"
 
 #define INTERFACE in
 #define FLAT flat in
 #include "common/render_io.glsl"
+#include "common/shading.glsl"
 
 layout(binding = 0) uniform sampler2D base_colour_map;
 layout(binding = 1) uniform sampler1D profile;   // f, f' over one period
-uniform vec4 base_colour;     // linear
-uniform vec2 texture_size;    // texels; 0: no texture
-uniform float alpha_cutoff;   // below it nothing is drawn; 0 where the material is opaque
+#ifdef ALPHA
+uniform float alpha_cutoff;   // below it nothing is drawn
 uniform bool has_alpha;
+#endif
 layout(location = 0) out vec4 colour;
 #ifdef AOV
 uniform int aov;              // one of AOV_… of common/constants.glsl
@@ -27,6 +28,21 @@ struct Wrinkle {
     float lost_slope;  // Σ w ½(2πh|κ|)² m (1 − fade²)
 };
 
+// f and f' of the three waves.
+void look_up(out vec3 f, out vec3 slope) {
+#ifdef SINUSOID
+    // cos and −sin of 2πx within half a turn, as polynomials of Chebyshev interpolation, good to 1e-6.
+    vec3 x = tau - floor(tau + 0.5), u = x * x;
+    f = 0.9999992 + u * (-19.7389782 + u * (64.9285878 + u * (-85.2708436 + u * (58.7869408 - u * 21.0654294))));
+    slope = -x * (6.2831849 + u * (-41.3415883 + u * (81.5999136 + u * (-76.6141403 + u * (41.3413654 - u * 12.4688186)))));
+#else
+    vec3 place = tau + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
+    vec2 a = texture(profile, place.x).rg, b = texture(profile, place.y).rg, c = texture(profile, place.z).rg;
+    f = vec3(a.x, b.x, c.x);
+    slope = vec3(a.y, b.y, c.y);
+#endif
+}
+
 float rise(float s, out float slope) {  // S and S'
     s = clamp(s, 0.0, 1.0);
     slope = 6.0 * s * (1.0 - s);
@@ -38,10 +54,9 @@ Wrinkle wrinkle_at(vec3 b) {
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
     vec3 fade = 1.0 - smoothstep(0.25, 0.5, turns_per_pixel);
     vec3 h = heights.xyz * fade;
-    vec3 place = tau + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
-    vec2 a = texture(profile, place.x).rg, e = texture(profile, place.y).rg, g = texture(profile, place.z).rg;
-    vec3 H = h * vec3(a.x, e.x, g.x);
-    vec3 slope = (2.0 * pi) * h * vec3(a.y, e.y, g.y);
+    vec3 f, slope;
+    look_up(f, slope);
+    vec3 H = h * f;
 
     vec3 w;
     vec3 gradient_weights = vec3(0.0);  // ∂(Σ w H)/∂(α, β, γ)
@@ -70,30 +85,27 @@ Wrinkle wrinkle_at(vec3 b) {
                             twice.y * b.y + twice.z * b.x + motion.x * along.z + motion.y);
 #endif
 #endif
-    vec3 ws = w * slope;
+    vec3 ws = w * fade * slope;
     Wrinkle result;
     result.height = dot(w, H);
-    result.gradient = ws.x * wavenumber_a + ws.y * wavenumber_b + ws.z * wavenumber_c;
+    result.gradient = ws.x * climb_a + ws.y * climb_b + ws.z * climb_c;
 #ifdef FULL_GRADIENT
     result.gradient += (gradient_weights.y - gradient_weights.x) * gradient_beta +
                        (gradient_weights.z - gradient_weights.x) * gradient_gamma;
 #endif
     result.amplitude = dot(w, h);
-    vec3 steepness = heights.xyz * (2.0 * pi) *
-                     sqrt(vec3(dot(wavenumber_a, wavenumber_a), dot(wavenumber_b, wavenumber_b), dot(wavenumber_c, wavenumber_c)));
-    result.lost_slope = dot(w, steepness * steepness * (1.0 - fade * fade)) * 0.5 * surface.w;
+    result.lost_slope = dot(w, steepness.xyz * (1.0 - fade * fade));
     return result;
 }
 #endif
 
 void main() {
-    vec3 to_eye = eye.xyz - x;
     vec3 v = normalize(to_eye);
     float side = dot(plane, to_eye) < 0.0 ? -1.0 : 1.0;
     vec3 n = normalize(normal), ns = side * n, N = ns;
     float lost_slope = 0.0, occlusion = 1.0;
     vec2 at = uv;
-    vec2 across = dFdx(uv) * texture_size, down = dFdy(uv) * texture_size;
+    vec2 across = dFdx(uv) * texels, down = dFdy(uv) * texels;
 #ifndef PLAIN
     vec3 b = vec3(1.0 - weights.x - weights.y, weights);
     Wrinkle wrinkle = Wrinkle(0.0, vec3(0.0), 0.0, 0.0);
@@ -103,27 +115,27 @@ void main() {
         lost_slope = wrinkle.lost_slope;
         float height = side * wrinkle.height;
         if (wrinkle.amplitude > 0.0) {
-            float steep = 2.0 * pi * wrinkle.amplitude * heights.w;
+            float steep = wrinkle.amplitude * steepness.w;
             float depth = clamp(0.5 - 0.5 * height / wrinkle.amplitude, 0.0, 1.0);
-            occlusion = max(0.0, 1.0 - surface.y * depth * (1.0 - inversesqrt(1.0 + steep * steep)));
+            occlusion = max(0.0, 1.0 - lit_from[1].w * depth * (1.0 - inversesqrt(1.0 + steep * steep)));
         }
         float c = dot(v, ns);
-        vec3 shift = (v - c * ns) * (c / (c * c + 0.1) * height * surface.z * smoothstep(0.0, 0.2, c));
-        float limit = 0.25 / heights.w, size = length(shift);
-        if (size > limit) shift *= limit / size;
+        vec3 shift = (v - c * ns) * (c / (c * c + 0.1) * height * lit_from[2].w * smoothstep(0.0, 0.2, c));
+        shift *= min(1.0, heights.w * inversesqrt(max(dot(shift, shift), 1e-30)));
         at += vec2(dot(gradient_u, shift), dot(gradient_v, shift));
     }
 #endif
-    vec4 albedo = base_colour;
-    if (texture_size.x > 0.0) {
-        float level = 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
-        albedo *= textureLod(base_colour_map, at, level);
-    }
+    float level = 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+    vec4 albedo = base * textureLod(base_colour_map, at, level);
+    float alpha = 1.0;
+#ifdef ALPHA
     if (albedo.a < alpha_cutoff) discard;
+    if (has_alpha) alpha = albedo.a;
+#endif
 #ifdef AOV
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (aov == AOV_NORMAL) colour.rgb = N;
-    if (aov == AOV_DEPTH) colour.rgb = vec3(dot(x - eye.xyz, view_forward));
+    if (aov == AOV_DEPTH) colour.rgb = vec3(-dot(to_eye, view_forward));
 #ifndef PLAIN
     if (aov == AOV_HEIGHT) colour.rgb = vec3(wrinkle.height);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(wrinkle.amplitude);
@@ -137,7 +149,6 @@ void main() {
     if (aov == AOV_TENSION) colour.rgb = vec3(tension);
 #endif
 #else
-    float alpha = has_alpha ? albedo.a : 1.0;
-    colour = vec4(shade(albedo.rgb, x, N, ns, v, lost_slope, occlusion) * alpha, alpha);
+    colour = vec4(shade(albedo.rgb, N, ns, v, lost_slope, occlusion) * alpha, alpha);
 #endif
 }

@@ -6,6 +6,9 @@
 layout(binding = 17) uniform usamplerBuffer corners;          // render vertex, welded vertex; three a triangle
 layout(binding = 18) uniform samplerBuffer render_vertices;   // rest normal as components of (t, b, n), u; v, unused
 
+uniform vec4 base_colour;     // linear
+uniform vec2 texture_size;    // texels
+
 #define INTERFACE out
 #define FLAT flat out
 #include "common/render_io.glsl"
@@ -29,9 +32,21 @@ void main() {
         facing += posed_normal;
         if (i == corner) normal = posed_normal;
     }
-    x = p[corner];
+    vec3 x = p[corner];
+    to_eye = eye.xyz - x;
     uv = uvs[corner];
     gl_Position = view_projection * vec4(x, 1.0);
+    for (int i = 0; i < 3; ++i) {
+        lit_from[i] = vec4(lights[i].direction.xyz, surface[i]);
+        lit_by[i] = vec4(lights[i].colour.rgb, up[i]);
+    }
+    ambient_light = ambient;
+    base = base_colour;
+    texels = texture_size;
+#ifdef SHADOWS
+    shadow_place = (shadow_matrix * vec4(x, 1.0)).xyz - vec3(0.0, 0.0, shadow_texel.z);
+    for (int i = 0; i < 3; ++i) shadow_steps[i] = vec4(1.5 * shadow_texel.y * shadow_matrix[i].xyz, shadow_texel.x);
+#endif
 #ifdef AOV
     tension = state(id[corner]).z;
 #endif
@@ -49,11 +64,20 @@ void main() {
         // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
         tau[i] = dot(wavenumbers[i], x - p[i]) + (phase(id[i]).x + constant(id[i]).z) * (0.5 / pi);
     }
+    vec3 squares = vec3(dot(wavenumbers[0], wavenumbers[0]), dot(wavenumbers[1], wavenumbers[1]),
+                        dot(wavenumbers[2], wavenumbers[2]));
+    float largest = sqrt(max(squares.x, max(squares.y, squares.z)));
+    vec3 climbs = (2.0 * pi) * h;
+    climb_a = climbs.x * wavenumbers[0];
+    climb_b = climbs.y * wavenumbers[1];
+    climb_c = climbs.z * wavenumbers[2];
+    heights = vec4(h, 0.25 / largest);
+    steepness = vec4(0.5 * surface.w * climbs * climbs * squares, 2.0 * pi * largest);
+#ifdef AOV
     wavenumber_a = wavenumbers[0];
     wavenumber_b = wavenumbers[1];
     wavenumber_c = wavenumbers[2];
-    float largest = max(dot(wavenumber_a, wavenumber_a), max(dot(wavenumber_b, wavenumber_b), dot(wavenumber_c, wavenumber_c)));
-    heights = vec4(h, sqrt(largest));
+#endif
     float square = dot(area, area);
     gradient_beta = safe_divide(cross(c, area), square);
     gradient_gamma = safe_divide(cross(area, b), square);

@@ -1,25 +1,43 @@
-// From render.vert to render.frag. Flat: one value a triangle, so that no fragment fetches from a buffer.
+// From render.vert to render.frag. Flat: one value a triangle. What is the same for the whole frame comes this way as well:
+// a software renderer takes four times as long to read a uniform as a flat input, and a pixel reads forty of them.
 INTERFACE Varyings {
-    vec3 x;          // position
+    vec3 to_eye;        // from the point to the eye
     vec3 normal;
     vec2 uv;
 #ifndef PLAIN
-    vec3 tau;        // the three waves' phases here, turns; linear over the triangle
-    vec2 weights;    // barycentric β, γ
+    vec3 tau;           // the three waves' phases here, turns; linear over the triangle
+    vec2 weights;       // barycentric β, γ
+#endif
+#ifdef SHADOWS
+    vec3 shadow_place;  // in the key light's depth map, nearer by the depth offset
 #endif
 #ifdef AOV
-    float tension;   // 1 − r
+    float tension;      // 1 − r
 #endif
 };
 #ifndef PLAIN
+FLAT vec3 climb_a;            // 2π h_j κ_j: the steepest gradient of each wave
+FLAT vec3 climb_b;
+FLAT vec3 climb_c;
+FLAT vec4 heights;            // h_A, h_B, h_C; λ/4, λ = 1/max |κ|
+FLAT vec4 steepness;          // ½ m (2π h_j |κ_j|)²; 2π max |κ|
+FLAT vec3 gradient_beta;      // ∇β, ∇γ in the triangle's plane; ∇α is minus their sum
+FLAT vec3 gradient_gamma;
+FLAT vec3 along;              // c_A, c_B, c_C: where the opposite corner projects onto an edge
+FLAT vec3 gradient_u;
+FLAT vec3 gradient_v;
+#ifdef AOV
 FLAT vec3 wavenumber_a;
 FLAT vec3 wavenumber_b;
 FLAT vec3 wavenumber_c;
-FLAT vec4 heights;           // h_A, h_B, h_C, max |κ|
-FLAT vec3 gradient_beta;     // ∇β, ∇γ in the triangle's plane; ∇α is minus their sum
-FLAT vec3 gradient_gamma;
-FLAT vec3 along;             // c_A, c_B, c_C: where the opposite corner projects onto an edge
-FLAT vec3 gradient_u;
-FLAT vec3 gradient_v;
 #endif
-FLAT vec3 plane;             // the triangle's normal, any length, on the side of its vertices' normals
+#endif
+FLAT vec3 plane;              // the triangle's normal, any length, on the side of its vertices' normals
+FLAT vec4 lit_from[3];        // direction toward each light; roughness⁴, cavity, parallax
+FLAT vec4 lit_by[3];          // its colour; the components of up
+FLAT vec4 ambient_light;      // colour A; sheen
+FLAT vec4 base;               // the material's colour
+FLAT vec2 texels;             // size of its texture
+#ifdef SHADOWS
+FLAT vec4 shadow_steps[3];    // where 1.5 texels along x, y, z lead to in the map; the size of a texel in it
+#endif

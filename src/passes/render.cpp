@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -62,6 +63,17 @@ void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
   glUniformMatrix4fv(p.uniform(name), 1, GL_FALSE, glm::value_ptr(f));
 }
 
+// Whether the profile is the one that render.frag has without a table.
+bool is_sinusoid(const Profile& profile) {
+  for (std::size_t i = 0; i < profile.f.size(); ++i) {
+    const double phase = 2 * glm::pi<double>() * static_cast<double>(i) / static_cast<double>(profile.f.size());
+    if (std::abs(profile.f[i] - std::cos(phase)) > 1e-9 || std::abs(profile.derivative[i] + std::sin(phase)) > 1e-9) return false;
+  }
+  return true;
+}
+
+bool has_holes(const DrawPart& part) { return part.has_alpha || part.alpha_cutoff > 0; }
+
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
   glm::dvec3 across, along, origin;
@@ -87,7 +99,13 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
   if (look.shadows) defines.emplace_back("SHADOWS", "1");
   if (!look.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
   if (look.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
-  surface_ = gpu::Program({"render.vert", look.phong ? "phong.frag" : "render.frag"}, defines, shader_folder);
+  if (is_sinusoid(profile)) defines.emplace_back("SINUSOID", "1");
+  const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
+  surface_ = gpu::Program(files, defines, shader_folder);
+  if (std::any_of(parts_.begin(), parts_.end(), has_holes)) {
+    defines.emplace_back("ALPHA", "1");
+    surface_with_alpha_ = gpu::Program(files, defines, shader_folder);
+  }
   if (look.shadows || look.ground) depth_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.wireframe) lines_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.ground) {
@@ -110,6 +128,7 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
     glTextureParameteri(shadow_texture_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   }
   for (const auto& levels : textures) textures_.emplace_back(levels);
+  textures_.emplace_back(std::vector<TextureLevel>{{1, 1, {255, 255, 255, 255}}});
   scene_ = gpu::Buffer(sizeof(SceneBlock));
   glCreateVertexArrays(1, &vertex_array_);
 
@@ -252,16 +271,15 @@ void RenderPass::draw_backdrop(const View& view) {
   glEnable(GL_DEPTH_TEST);
 }
 
-void RenderPass::draw_parts(const gpu::Program& program, bool blended) {
+void RenderPass::draw_parts(const gpu::Program& whole, const gpu::Program& cut, bool blended) {
   for (const auto& part : parts_) {
     if (part.has_alpha != blended || part.triangle_count == 0) continue;
-    const bool textured = part.texture >= 0;
-    if (textured) textures_[static_cast<std::size_t>(part.texture)].bind(0);
+    const gpu::Program& program = has_holes(part) ? cut : whole;
+    program.use();
+    const Texture& texture = part.texture >= 0 ? textures_[static_cast<std::size_t>(part.texture)] : textures_.back();
+    texture.bind(0);
     uniform(program, "base_colour", part.base_colour);
-    uniform(program, "texture_size",
-            textured ? glm::vec2(textures_[static_cast<std::size_t>(part.texture)].width(),
-                                 textures_[static_cast<std::size_t>(part.texture)].height())
-                     : glm::vec2(0));
+    uniform(program, "texture_size", glm::vec2(texture.width(), texture.height()));
     uniform(program, "alpha_cutoff", part.alpha_cutoff);
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
@@ -285,14 +303,13 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (look_.ground && !look_.transparent) draw_backdrop(view);
   glEnable(GL_DEPTH_TEST);
-  surface_.use();
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
-  draw_parts(surface_, false);
+  draw_parts(surface_, surface_with_alpha_, false);
   if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; })) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
     glDepthMask(GL_FALSE);
-    draw_parts(surface_, true);
+    draw_parts(surface_, surface_with_alpha_, true);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
   }
@@ -311,7 +328,7 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
 void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                           Aov aov) {
   if (aov_.id() == 0) {
-    gpu::Defines defines{{"AOV", "1"}};
+    gpu::Defines defines{{"AOV", "1"}, {"ALPHA", "1"}};
     if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
     if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
     aov_ = gpu::Program({"render.vert", "render.frag"}, defines, shader_folder_);
@@ -327,8 +344,8 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   aov_.use();
   uniform(aov_, "aov", static_cast<int>(aov));
   uniform(aov_, "view_forward", view.forward);
-  draw_parts(aov_, false);
-  draw_parts(aov_, true);
+  draw_parts(aov_, aov_, false);
+  draw_parts(aov_, aov_, true);
   gpu::check("while rendering an AOV");
 }
 

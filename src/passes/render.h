@@ -80,15 +80,16 @@ class RenderPass {
   void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
   void draw_ground_map(const View& view);
   void draw_backdrop(const View& view);
-  void draw_parts(const gpu::Program& program, bool blended);
+  // Opaque and masked parts, or blended ones; `cut` draws those that are masked or blended.
+  void draw_parts(const gpu::Program& whole, const gpu::Program& cut, bool blended);
   unsigned depth_map(unsigned& framebuffer, int size);
 
   Look look_;
   Profile profile_;
   std::vector<DrawPart> parts_;
-  std::vector<Texture> textures_;
+  std::vector<Texture> textures_;   // the last is white, for parts without one
   std::string shader_folder_;
-  gpu::Program surface_, aov_, depth_, lines_, backdrop_, ground_cast_, ground_blur_;
+  gpu::Program surface_, surface_with_alpha_, aov_, depth_, lines_, backdrop_, ground_cast_, ground_blur_;
   gpu::Buffer scene_;
   unsigned vertex_array_ = 0, profile_texture_ = 0;
   unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "vec2 v2 = vec2(-v1.y, 1.01 * v1.x);", "crush"},
         Mutation{"RelaxMiddle", "relax.comp", "0.5 * (position(n)", "0.51 * (position(n)", "relax"},
         Mutation{"RelaxSign", "relax.comp", "? -1.0 : 1.0;", "? 1.0 : 1.0;", "relax"},
-        Mutation{"RenderSlope", "render.frag", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},
+        Mutation{"RenderSlope", "render.vert", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},
         Mutation{"RenderPhase", "render.vert", "(0.5 / pi)", "(0.55 / pi)", "render"},
         Mutation{"RenderLight", "common/shading.glsl", "0.6 + 0.4 *", "0.6 + 0.6 *", "render"},
         Mutation{"RenderShoulder", "common/shading.glsl", "0.04 + 0.96", "0.24 + 0.96", "render"}),
