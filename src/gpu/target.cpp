@@ -72,6 +72,11 @@ void Target::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Target::bind_resolved() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, read_);
+  glViewport(0, 0, width_, height_);
+}
+
 void Target::resolve(const Rectangle& area) const {
   if (read_ == draw_ || area.empty()) return;
   glBlitNamedFramebuffer(draw_, read_, area.x, area.y, area.x + area.width, area.y + area.height, area.x,

@@ -24,8 +24,10 @@ class Target {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  int samples() const { return samples_; }
   void bind() const;
-  // Averages the samples of one rectangle (the rest of the resolved picture keeps what `fill` put there).
+  void bind_resolved() const;  // to draw into what `resolve` leaves alone
+  // Averages the samples of one rectangle (the rest of the resolved picture keeps what was drawn there).
   void resolve(const Rectangle& area) const;
   // Rows from top to bottom. Reads the resolved picture.
   std::vector<std::uint8_t> read_rgba8() const;

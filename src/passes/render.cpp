@@ -66,13 +66,37 @@ void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
 // Whether the profile is the one that render.frag has without a table.
 bool is_sinusoid(const Profile& profile) {
   for (std::size_t i = 0; i < profile.f.size(); ++i) {
-    const double phase = 2 * glm::pi<double>() * static_cast<double>(i) / static_cast<double>(profile.f.size());
-    if (std::abs(profile.f[i] - std::cos(phase)) > 1e-9 || std::abs(profile.derivative[i] + std::sin(phase)) > 1e-9) return false;
+    const double phase =
+        2 * glm::pi<double>() * static_cast<double>(i) / static_cast<double>(profile.f.size());
+    if (std::abs(profile.f[i] - std::cos(phase)) > 1e-9 ||
+        std::abs(profile.derivative[i] + std::sin(phase)) > 1e-9)
+      return false;
   }
   return true;
 }
 
-bool has_holes(const DrawPart& part) { return part.has_alpha || part.alpha_cutoff > 0; }
+// Holds all that the surface draws, lines on its edges included; the whole picture where a point is beside or
+// behind the eye.
+gpu::Rectangle covered(const std::vector<glm::vec4>& positions, const glm::dmat4& view_projection, int width,
+                       int height) {
+  constexpr double margin = 2;  // pixels: half a line's width, and single precision on the GPU
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (const glm::vec4& x : positions) {
+    const glm::dvec4 clip = view_projection * glm::dvec4(glm::dvec3(x), 1);
+    const glm::dvec2 place = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(width, height);
+    if (!(clip.w > 0) || !std::isfinite(place.x + place.y)) return {0, 0, width, height};
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  const glm::dvec2 size(width, height);
+  const glm::ivec2 first(glm::clamp(glm::floor(low - margin), glm::dvec2(0), size));
+  const glm::ivec2 end(glm::clamp(glm::ceil(high + margin), glm::dvec2(0), size));
+  return {first.x, first.y, end.x - first.x, end.y - first.y};
+}
+
+bool has_holes(const DrawPart& part) {
+  return part.has_alpha || part.alpha_cutoff > 0;
+}
 
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
@@ -276,7 +300,8 @@ void RenderPass::draw_parts(const gpu::Program& whole, const gpu::Program& cut, 
     if (part.has_alpha != blended || part.triangle_count == 0) continue;
     const gpu::Program& program = has_holes(part) ? cut : whole;
     program.use();
-    const Texture& texture = part.texture >= 0 ? textures_[static_cast<std::size_t>(part.texture)] : textures_.back();
+    const Texture& texture =
+        part.texture >= 0 ? textures_[static_cast<std::size_t>(part.texture)] : textures_.back();
     texture.bind(0);
     uniform(program, "base_colour", part.base_colour);
     uniform(program, "texture_size", glm::vec2(texture.width(), texture.height()));
@@ -289,19 +314,47 @@ void RenderPass::draw_parts(const gpu::Program& whole, const gpu::Program& cut, 
   glDisable(GL_CULL_FACE);
 }
 
+void RenderPass::clear(bool with_depth) {
+  const glm::vec4 colour = look_.transparent ? glm::vec4(0) : wide(look_.background, 1);
+  glClearColor(colour.r, colour.g, colour.b, colour.a);
+  glDepthMask(GL_TRUE);
+  glClear(with_depth ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT);
+}
+
 void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target) {
+  draw(surface, view, target, {0, 0, target.width(), target.height()});
+}
+
+void RenderPass::draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                               bool software) {
+  gpu::Rectangle area{0, 0, target.width(), target.height()};
+  if (software && target.samples() > 1) {
+    area =
+        covered(surface.positions.read<glm::vec4>(), view.view_projection, target.width(), target.height());
+  }
+  draw(surface, view, target, area);
+  target.resolve(area);
+}
+
+void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                      const gpu::Rectangle& area) {
   glDisable(GL_FRAMEBUFFER_SRGB);
   bind_surface(surface);
   if (look_.shadows || look_.ground) draw_shadow_map(surface, view);
   if (look_.ground) draw_ground_map(view);
   write_scene(view);
-  target.bind();
   glEnable(GL_FRAMEBUFFER_SRGB);
-  const glm::vec4 clear = look_.transparent ? glm::vec4(0) : wide(look_.background, 1);
-  glClearColor(clear.r, clear.g, clear.b, clear.a);
-  glDepthMask(GL_TRUE);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  if (look_.ground && !look_.transparent) draw_backdrop(view);
+  const bool backdrop = look_.ground && !look_.transparent;
+  if (area.width < target.width() || area.height < target.height()) {
+    target.bind_resolved();
+    clear(false);
+    if (backdrop) draw_backdrop(view);
+  }
+  target.bind();
+  clear(true);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(area.x, area.y, area.width, area.height);
+  if (backdrop) draw_backdrop(view);
   glEnable(GL_DEPTH_TEST);
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
   draw_parts(surface_, surface_with_alpha_, false);
@@ -322,6 +375,7 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * surface.triangle_count));
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
+  glDisable(GL_SCISSOR_TEST);
   gpu::check("while rendering");
 }
 

@@ -63,6 +63,11 @@ class RenderPass {
 
   // Clears and draws everything into `target`, not yet resolved.
   void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
+  // The same, resolved. A software renderer pays for every multisampled pixel: there (`software`) the
+  // backdrop is drawn with one sample, and with four only the rectangle that the surface covers. The picture
+  // is the same.
+  void draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                     bool software);
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
 
@@ -75,10 +80,13 @@ class RenderPass {
   static constexpr double shadow_offset = 1e-3;
 
  private:
+  void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+            const gpu::Rectangle& area);
   void write_scene(const View& view);
   void bind_surface(const SurfaceBuffers& surface);
   void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
   void draw_ground_map(const View& view);
+  void clear(bool with_depth);
   void draw_backdrop(const View& view);
   // Opaque and masked parts, or blended ones; `cut` draws those that are masked or blended.
   void draw_parts(const gpu::Program& whole, const gpu::Program& cut, bool blended);
@@ -87,7 +95,7 @@ class RenderPass {
   Look look_;
   Profile profile_;
   std::vector<DrawPart> parts_;
-  std::vector<Texture> textures_;   // the last is white, for parts without one
+  std::vector<Texture> textures_;  // the last is white, for parts without one
   std::string shader_folder_;
   gpu::Program surface_, surface_with_alpha_, aov_, depth_, lines_, backdrop_, ground_cast_, ground_blur_;
   gpu::Buffer scene_;

@@ -186,8 +186,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         picture = last_picture;
       } else {
         timer.begin("render");
-        pass->draw(stepper->surface(), view, *target);
-        target->resolve({0, 0, output.width, output.height});
+        pass->draw_resolved(stepper->surface(), view, *target, context.info().software);
         timer.end();
         const double read = now_ms();
         picture.width = output.width;

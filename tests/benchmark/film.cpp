@@ -55,7 +55,8 @@ SceneSettings film_settings(const std::string& scene, const Effort& effort, int 
   return settings;
 }
 
-Sample film_without_files(const SceneSettings& settings, const Effort& effort, bool read_back) {
+Sample film_without_files(const SceneSettings& settings, const Effort& effort, bool read_back,
+                          bool software) {
   pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);
   pipeline::Stepper stepper(scene, timer, "");
@@ -66,8 +67,7 @@ Sample film_without_files(const SceneSettings& settings, const Effort& effort, b
   Sample begin;
   for (int frame = 1; frame <= frames; ++frame) {
     stepper.advance_to(scene.step_of_frame(frame));
-    pass.draw(stepper.surface(), scene.view(frame), target);
-    target.resolve({0, 0, output.width, output.height});
+    pass.draw_resolved(stepper.surface(), scene.view(frame), target, software);
     if (read_back) {
       target.read_rgba8();
     } else {

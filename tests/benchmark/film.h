@@ -14,7 +14,7 @@ SceneSettings film_settings(const std::string& scene, const Effort& effort, int 
 // Each renders the clip (or the effort's first frames of it) and returns the time of a frame, the first one
 // left out: it pays for loading, compiling and the period that a looped clip replays. The one needs a current
 // context, the other makes its own.
-Sample film_without_files(const SceneSettings& settings, const Effort& effort, bool read_back);
+Sample film_without_files(const SceneSettings& settings, const Effort& effort, bool read_back, bool software);
 struct FilmWithFiles {
   Sample frame;
   double whole_run_fps = 0;  // the first frame and loading included

@@ -23,7 +23,7 @@ void measure_frames(Report& report, const Effort& effort) {
       cpu[0].push_back(1e3 * film.frame.cpu_s);
       whole.push_back(film.whole_run_fps);
       const gpu::Context context;
-      const Sample sample = film_without_files(settings, effort, true);
+      const Sample sample = film_without_files(settings, effort, true, context.info().software);
       fps[1].push_back(1 / sample.wall_s);
       cpu[1].push_back(1e3 * sample.cpu_s);
     }

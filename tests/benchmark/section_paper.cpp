@@ -40,7 +40,7 @@ void measure_table1(Report& report, const Effort& effort) {
     std::vector<double> fps[2], cpu[2];
     for (int run = 0; run < runs; ++run) {
       for (std::size_t i = 0; i < 2; ++i) {
-        const Sample sample = film_without_files(settings[i], effort, false);
+        const Sample sample = film_without_files(settings[i], effort, false, context.info().software);
         fps[i].push_back(1 / sample.wall_s);
         cpu[i].push_back(1e3 * sample.cpu_s);
       }
@@ -66,7 +66,7 @@ void measure_table2(Report& report, const Effort& effort) {
   for (const Table2Column& column : table2) {
     const Subject subject = scene_subject(column.scene, effort);
     const gpu::Context context;
-    Rig rig(subject);
+    Rig rig(subject, context.info().software);
     rig.step_to_middle();
     passes::RenderPass pass(subject.look, subject.profile, subject.parts, subject.textures, "");
     const gpu::Target target(effort.width, effort.height, 1, gpu::Target::Format::srgb8);

@@ -17,7 +17,7 @@ void measure_passes(Report& report, const Effort& effort) {
   for (const Subject& subject :
        {scene_subject("model_a", effort), scene_subject("model_b", effort), grid_subject(effort)}) {
     const gpu::Context context;
-    Rig rig(subject);
+    Rig rig(subject, context.info().software);
     rig.step_to_middle();
     passes::RenderPass pass(bare(subject.look), subject.profile, subject.parts, subject.textures, "");
     const gpu::Target single(effort.width, effort.height, 1, gpu::Target::Format::srgb8);

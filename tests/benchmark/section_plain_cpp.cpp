@@ -75,7 +75,7 @@ void measure_plain_cpp(Report& report, const Effort& effort) {
   for (const Subject& subject : {scene_subject("model_b", effort), grid_subject(effort)}) {
     const gpu::Context context;
     const Clock clock = fair_clock(context.info());
-    Rig rig(subject);
+    Rig rig(subject, context.info().software);
     rig.skin();
     report.results_agree = agree(rig, subject.name) && report.results_agree;
     rig.step_to_middle();

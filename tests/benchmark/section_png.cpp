@@ -9,7 +9,7 @@ namespace plisse::benchmark {
 void measure_png(Report& report, const Effort& effort) {
   const Subject subject = scene_subject("shirt", effort);
   const gpu::Context context;
-  Rig rig(subject);
+  Rig rig(subject, context.info().software);
   rig.step_to_middle();
   passes::RenderPass pass(subject.look, subject.profile, subject.parts, subject.textures, "");
   const gpu::Target target(effort.width, effort.height, 4, gpu::Target::Format::srgb8);

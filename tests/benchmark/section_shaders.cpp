@@ -19,7 +19,7 @@ void compare_shaders(Report& report, const Effort& effort, const std::string& fo
   for (const Subject& subject : subjects) {
     const gpu::Context context;
     const Clock clock = fair_clock(context.info());
-    Rig built_in(subject), other(subject, folder);
+    Rig built_in(subject, context.info().software), other(subject, context.info().software, folder);
     built_in.step_to_middle();
     other.step_to_middle();
     const auto pass = [&](const std::string& its) {

@@ -18,7 +18,7 @@ void measure_shading(Report& report, const Effort& effort) {
   for (const Subject& subject : {scene_subject("shirt", effort), scene_subject("model_a", effort)}) {
     const gpu::Context context;
     const Clock clock = fair_clock(context.info());
-    Rig rig(subject);
+    Rig rig(subject, context.info().software);
     rig.step_to_middle();
     passes::Look look = bare(subject.look), plain = look, phong = look;
     plain.plain = phong.plain = true;

@@ -115,8 +115,9 @@ Subject grid_subject(const Effort& effort) {
   return subject;
 }
 
-Rig::Rig(const Subject& subject, const std::string& shader_folder)
+Rig::Rig(const Subject& subject, bool software, const std::string& shader_folder)
     : subject_(subject),
+      software_(software),
       surface_(subject.surface, subject.rest, subject.waves, subject.units, 1),
       skin_(subject.palettes.front().size(), subject.surface.target_count, shader_folder),
       crush_(shader_folder),
@@ -163,8 +164,7 @@ passes::Look bare(passes::Look look) {
 }
 
 void draw(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& target) {
-  pass.draw(rig.surface(), subject.view, target);
-  target.resolve({0, 0, target.width(), target.height()});
+  pass.draw_resolved(rig.surface(), subject.view, target, rig.software());
   finish();
 }
 

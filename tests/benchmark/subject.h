@@ -46,7 +46,7 @@ Subject grid_subject(const Effort& effort);
 class Rig {
  public:
   // shader_folder: in place of the built-in shaders, unless it is empty.
-  explicit Rig(const Subject& subject, const std::string& shader_folder = "");
+  Rig(const Subject& subject, bool software, const std::string& shader_folder = "");
   // The next frame of the clip, which starts again at its end: skin, crush, relax; and as single passes.
   void step();
   void skin();
@@ -57,9 +57,11 @@ class Rig {
   void step_through_clip();
 
   passes::SurfaceBuffers& surface() { return surface_; }
+  bool software() const { return software_; }
 
  private:
   const Subject& subject_;
+  bool software_;
   passes::SurfaceBuffers surface_;
   passes::SkinPass skin_;
   passes::CrushPass crush_;

@@ -1,0 +1,63 @@
+// Resolving only what the surface covers must not show: the same bytes as drawing and resolving the whole
+// picture.
+#include <gtest/gtest.h>
+
+#include "config/scene_file.h"
+#include "gpu/target.h"
+#include "gpu/timer.h"
+#include "passes/render.h"
+#include "pipeline/loaded_scene.h"
+#include "pipeline/stepper.h"
+#include "support/opengl.h"
+
+namespace plisse::pipeline {
+namespace {
+
+struct Setting {
+  const char* name;
+  const char* scene;
+  bool wireframe, transparent;
+  double nearer;  // the eye's way to the target: 0.9 is inside the model, so that points lie behind the eye
+};
+
+void PrintTo(const Setting& setting, std::ostream* out) {
+  *out << setting.name;
+}
+
+class CoveredRectangle : public test::OpenGlTest, public ::testing::WithParamInterface<Setting> {};
+
+TEST_P(CoveredRectangle, DoesNotShow) {
+  const Setting& setting = GetParam();
+  SceneSettings settings = load_scene(std::string(PLISSE_SOURCE_DIR "/assets/") + setting.scene + ".toml");
+  settings.model.loop = false;
+  settings.output.width = 230;  // no multiple of the driver's tiles
+  settings.output.height = 170;
+  settings.output.transparent = setting.transparent;
+  settings.shading.wireframe = setting.wireframe;
+  settings.camera.eye += setting.nearer * (settings.camera.target - settings.camera.eye);
+  LoadedScene scene(settings);
+  gpu::StageTimer timer(true);
+  Stepper stepper(scene, timer, "");
+  passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+  const gpu::Target whole(230, 170, 4, gpu::Target::Format::srgb8),
+      part(230, 170, 4, gpu::Target::Format::srgb8);
+  for (int frame : {1, 12, 24}) {
+    stepper.advance_to(scene.step_of_frame(frame));
+    pass.draw(stepper.surface(), scene.view(frame), whole);
+    whole.resolve({0, 0, 230, 170});
+    pass.draw_resolved(stepper.surface(), scene.view(frame), part, true);
+    EXPECT_EQ(whole.read_rgba8(), part.read_rgba8()) << "frame " << frame;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, CoveredRectangle,
+                         ::testing::Values(Setting{"Ground", "sleeve", false, false, 0},
+                                           Setting{"Plain", "zeppelin", false, false, 0},
+                                           Setting{"Transparent", "zeppelin", false, true, 0},
+                                           Setting{"Lines", "curtain", true, false, -0.5},
+                                           Setting{"CloseUp", "zeppelin", false, false, 0.6},
+                                           Setting{"Inside", "zeppelin", false, false, 0.95}),
+                         [](const auto& setting) { return setting.param.name; });
+
+}  // namespace
+}  // namespace plisse::pipeline
