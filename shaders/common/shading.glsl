@@ -2,19 +2,28 @@
 
 #ifdef SHADOWS
 layout(binding = 2) uniform sampler2DShadow shadow_map;
-// Nine comparisons, a texel apart, each bilinear.
+// The mean of nine comparisons, a texel apart, each bilinear: together they weigh 4×4 texels by (1 − f, 1, 1, f) along each
+// axis, f the place between two texels; four gathers fetch those.
 float key_shadow(vec3 n) {
     vec3 p = shadow_place + n.x * shadow_steps[0].xyz + n.y * shadow_steps[1].xyz + n.z * shadow_steps[2].xyz;
-    float texel = shadow_steps[0].w, sum = 0.0;
-    for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) sum += texture(shadow_map, vec3(p.xy + vec2(i, j) * texel, p.z));
-    return sum / 9.0;
+    float texel = shadow_steps[0].w;
+    vec2 place = p.xy / texel - 0.5, corner = floor(place), f = place - corner;
+    // A gather where four texels meet takes them as (left, upper), (right, upper), (right, lower), (left, lower).
+    vec4 a = textureGather(shadow_map, corner * texel, p.z), b = textureGather(shadow_map, (corner + vec2(2.0, 0.0)) * texel, p.z);
+    vec4 c = textureGather(shadow_map, (corner + vec2(0.0, 2.0)) * texel, p.z), d = textureGather(shadow_map, (corner + 2.0) * texel, p.z);
+    vec2 low = 1.0 - f;
+    vec4 rows = vec4(low.x * a.w + a.z + b.w + f.x * b.z, low.x * a.x + a.y + b.x + f.x * b.y,
+                     low.x * c.w + c.z + d.w + f.x * d.z, low.x * c.x + c.y + d.x + f.x * d.y);
+    return (low.y * rows.x + rows.y + rows.z + f.y * rows.w) / 9.0;
 }
 #else
 float key_shadow(vec3 n) { return 1.0; }
 #endif
 
-vec3 shoulder(vec3 x) { return mix(x, 0.8 + 0.2 * (1.0 - exp((0.8 - x) / 0.2)), greaterThan(x, vec3(0.8))); }
+vec3 shoulder(vec3 x) {
+    vec3 over = max(x - 0.8, 0.0);
+    return min(x, 0.8) + 0.2 * over / (0.2 + over);
+}
 
 // N: the wrinkled normal, n: the surface's own, both toward the eye; v: to the eye; lost_slope: variance of the slope
 // that a pixel is too coarse to show; occlusion: how much of the sky a valley sees.

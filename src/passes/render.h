@@ -65,7 +65,7 @@ class RenderPass {
   void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
   // The same, resolved. A software renderer pays for every multisampled pixel: there (`software`) the
   // backdrop is drawn with one sample, and with four only the rectangle that the surface covers. The picture
-  // is the same.
+  // is the same but for rare roundings of the backdrop to the next of 255 steps.
   void draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                      bool software);
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.

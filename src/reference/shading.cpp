@@ -48,7 +48,7 @@ double occlusion_of(double cavity, double amplitude, double height, double longe
 }
 
 double shoulder(double x) {
-  return x < 0.8 ? x : 0.8 + 0.2 * (1 - std::exp(-(x - 0.8) / 0.2));
+  return x < 0.8 ? x : 0.8 + 0.2 * (x - 0.8) / (x - 0.6);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ double srgb(double linear) {
   return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
 double shoulder(double x) {
-  return x <= 0.8 ? x : 0.8 + 0.2 * (1 - std::exp(-(x - 0.8) / 0.2));
+  return x <= 0.8 ? x : 1 - 0.04 / (x - 0.6);
 }
 
 // The table is linear between 1024 entries, good to 5e-6 in f and 2e-3 in where f' steps; single precision
