@@ -25,8 +25,10 @@ struct Image {
 };
 
 struct Texture {
-  std::string name;  // the file's path, or "embedded 0"
+  enum class Use { colour, normals };  // normals: a tangent-space normal map, its channels linear
+  std::string name;                    // the file's path, or "embedded 0"
   Image image;
+  Use use = Use::colour;
 };
 
 struct Material {
@@ -34,6 +36,8 @@ struct Material {
   std::string name;
   glm::vec4 base_colour{1.0F};   // linear, multiplies the texture
   int base_colour_texture = -1;  // index into Model::textures, −1 none
+  int normal_texture = -1;       // likewise; x to the right, y up the picture, z outward
+  float normal_scale = 1;        // multiplies the normal map's x and y
   Alpha alpha = Alpha::opaque;
   float alpha_cutoff = 0.5F;
   bool two_sided = true;
@@ -64,6 +68,8 @@ struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;        // unit, or empty
   std::vector<glm::vec2> uvs;            // v grows upward as in OpenGL (texture row 0 is at v = 1), or empty
+  std::vector<glm::vec2> normal_uvs;     // the normal map's, where they are not `uvs`; or empty
+  std::vector<glm::vec4> colours;        // linear, multiply the base colour; or empty
   std::vector<std::uint32_t> triangles;  // three indices each
   std::vector<Bone> bones;               // empty: rigid, moves with its node
   std::vector<Influences> influences;    // one per vertex where bones is not empty
@@ -116,6 +122,7 @@ struct Camera {
   std::string name;
   int node = -1;
   double vertical_field_of_view = 0.8;  // radians
+  double half_height = 0;  // > 0: parallel projection, half the picture's height in the node's unit
 };
 
 struct Model {

@@ -20,6 +20,9 @@ bool finite(const glm::vec2& v) {
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+bool finite(const glm::vec4& v) {
+  return finite(glm::vec3(v)) && std::isfinite(v.w);
+}
 bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -47,9 +50,14 @@ class Check {
     for (std::size_t n = 0; n < model_.nodes.size(); ++n) shown |= node(n);
     if (!shown) fail("no node places any of its meshes: there is nothing to show");
     for (const Clip& item : model_.clips) clip(item);
-    for (const Camera& item : model_.cameras)
+    for (const Camera& item : model_.cameras) {
       if (!is_node(item.node))
         fail(fmt::format("camera '{}' stands at node {}, of {}", item.name, item.node, model_.nodes.size()));
+      if (!(item.vertical_field_of_view > 0 && item.vertical_field_of_view < 3.1416) ||
+          !(item.half_height >= 0) || !finite(item.half_height))
+        fail(fmt::format("camera '{}' has no usable opening: {} rad, half height {}", item.name,
+                         item.vertical_field_of_view, item.half_height));
+    }
     cache();
   }
 
@@ -74,12 +82,14 @@ class Check {
 
   void material(std::size_t id) const {
     const Material& item = model_.materials[id];
-    if (item.base_colour_texture >= static_cast<int>(model_.textures.size()))
-      fail(fmt::format("material '{}' names texture {}, of {}", item.name, item.base_colour_texture,
-                       model_.textures.size()));
-    for (int c = 0; c < 4; ++c)
-      if (!finite(static_cast<double>(item.base_colour[c])))
-        fail(fmt::format("the base colour of material '{}' is not finite", item.name));
+    for (const int texture : {item.base_colour_texture, item.normal_texture})
+      if (texture >= static_cast<int>(model_.textures.size()))
+        fail(
+            fmt::format("material '{}' names texture {}, of {}", item.name, texture, model_.textures.size()));
+    if (!finite(item.base_colour))
+      fail(fmt::format("the base colour of material '{}' is not finite", item.name));
+    if (!std::isfinite(item.normal_scale) || !std::isfinite(item.alpha_cutoff))
+      fail(fmt::format("the normal scale or alpha cutoff of material '{}' is not finite", item.name));
   }
 
   void texture(const Texture& item) const {
@@ -104,6 +114,10 @@ class Check {
     all_finite(item.uvs, name + "uv");
     count(item.normals, vertices, name + "normals");
     count(item.uvs, vertices, name + "uvs");
+    all_finite(item.normal_uvs, name + "uv of the normal map");
+    all_finite(item.colours, name + "colour");
+    count(item.normal_uvs, vertices, name + "uvs of the normal map");
+    count(item.colours, vertices, name + "colours");
     if (item.material >= static_cast<int>(model_.materials.size()))
       fail(fmt::format("{}material {}, of {}", name, item.material, model_.materials.size()));
     for (const MorphTarget& target : item.targets) {
