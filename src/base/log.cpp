@@ -6,6 +6,8 @@
 #include <mutex>
 #include <set>
 
+#include "base/progress.h"
+
 namespace plisse::log {
 namespace {
 
@@ -20,6 +22,12 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+void say(spdlog::level::level_enum level, std::string_view text) {
+  if (!logger().should_log(level)) return;
+  Progress::wipe();
+  logger().log(level, "{}", text);
+}
+
 }  // namespace
 
 void set_level(Level level) {
@@ -29,13 +37,13 @@ void set_level(Level level) {
 }
 
 void info(std::string_view text) {
-  logger().debug("{}", text);
+  say(spdlog::level::debug, text);
 }
 void notice(std::string_view text) {
-  logger().info("{}", text);
+  say(spdlog::level::info, text);
 }
 void warn(std::string_view text) {
-  logger().warn("warning: {}", text);
+  say(spdlog::level::warn, fmt::format("warning: {}", text));
 }
 
 void warn_once(const std::string& key, std::string_view text) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 namespace plisse {
 namespace {
@@ -25,6 +26,10 @@ int terminal_columns() {
   winsize window{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
 }
+
+// There is one terminal, so there is one bar.
+std::mutex bar_mutex;
+bool bar_on_screen = false;
 
 // A closed stderr is no reason to stop a run: nobody asks whether this came through.
 void say(const std::string& text) {
@@ -59,7 +64,16 @@ Progress::Style Progress::style_for_stderr(bool quiet) {
 Progress::Progress(Style style) : style_(style), start_(Clock::now()) {}
 
 Progress::~Progress() {
-  if (bar_on_screen_) std::fputc('\n', stderr);
+  if (style_ != Style::bar) return;
+  const std::lock_guard lock(bar_mutex);
+  if (bar_on_screen) say("\n");
+  bar_on_screen = false;
+}
+
+void Progress::wipe() {
+  const std::lock_guard lock(bar_mutex);
+  if (bar_on_screen) say("\r\x1b[K");
+  bar_on_screen = false;
 }
 
 void Progress::update(int done, int total, std::string_view what) {
@@ -71,12 +85,13 @@ void Progress::update(int done, int total, std::string_view what) {
     return;
   }
   using namespace std::chrono_literals;
-  if (bar_on_screen_ && done < total && now - drawn_ < 50ms) return;  // 20 a second are enough for an eye
+  const std::lock_guard lock(bar_mutex);
+  if (bar_on_screen && done < total && now - drawn_ < 50ms) return;  // 20 a second are enough for an eye
   // One column stays free: some terminals wrap when the last one is written. "\x1b[K" clears what a longer
   // bar left.
   say(fmt::format("\r{}\x1b[K", progress_bar(done, total, seconds, terminal_columns() - 1)));
   drawn_ = now;
-  bar_on_screen_ = true;
+  bar_on_screen = true;
 }
 
 }  // namespace plisse

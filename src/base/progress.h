@@ -29,11 +29,14 @@ class Progress {
   // After a step; `what` names it. From one thread.
   void update(int done, int total, std::string_view what);
 
+  // Wipes the bar that stands on the terminal's last line, if one does, so that a message has the line to
+  // itself; the next update draws it again. From any thread (base/log.cpp).
+  static void wipe();
+
  private:
   using Clock = std::chrono::steady_clock;
   Style style_;
   Clock::time_point start_, drawn_;
-  bool bar_on_screen_ = false;
 };
 
 }  // namespace plisse

@@ -50,10 +50,11 @@ int choose_clip(const io::Model& model, const std::string& choice) {
   if (names.empty())
     throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but the model has no clips",
                                                  model.path.string(), choice));
-  const std::string near = nearest(choice, names);
-  std::stable_partition(names.begin(), names.end(), [&](const std::string& name) { return name == near; });
-  throw Error(ExitCode::bad_input, fmt::format("{}: no clip '{}'; it has, by name or index from 0: {}",
-                                               model.path.string(), choice, fmt::join(names, ", ")));
+  std::vector<std::string> listed;
+  for (std::size_t i = 0; i < names.size(); ++i) listed.push_back(fmt::format("{} '{}'", i, names[i]));
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: no clip '{}'{}; it has, by index or name: {}", model.path.string(), choice,
+                          did_you_mean(choice, names), fmt::join(listed, ", ")));
 }
 
 Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames_per_second) {

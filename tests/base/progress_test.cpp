@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/log.h"
 #include "base/text.h"
 
 namespace plisse {
@@ -42,6 +43,23 @@ TEST(Progress, NonsenseCountsAreHarmless) {
   for (const int total : {0, -1, 5}) {
     for (const int done : {-3, 0, 7}) EXPECT_LE(progress_bar(done, total, 1, 80).size(), 80U);
   }
+}
+
+TEST(Progress, MessagesHaveTheirLineToThemselves) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(Progress::Style::bar);
+    progress.update(1, 3, "a.png");
+    log::warn("first");
+    log::warn("second");
+    progress.update(3, 3, "c.png");
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  const std::size_t bar = text.find("1/3"), wiped = text.find("\r\x1b[Kwarning: first\nwarning: second\n\r");
+  ASSERT_NE(wiped, std::string::npos) << text;
+  EXPECT_LT(bar, wiped);
+  EXPECT_LT(wiped, text.find("3/3"));
+  EXPECT_EQ(text.back(), '\n');
 }
 
 TEST(Text, WrapsAtSpacesByLetters) {

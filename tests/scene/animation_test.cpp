@@ -281,8 +281,11 @@ TEST(Animation, ChoosesClips) {
   EXPECT_EQ(Animation(model, {}).clip_name(), "Survey");
   EXPECT_EQ(Animation(model, {.clip = "Walk"}).clip_name(), "Walk");
   EXPECT_EQ(Animation(model, {.clip = "2"}).clip_name(), "Run");
-  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "wolk"}); }), testing::HasSubstr("Walk, Survey, Run"));
-  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "3"}); }), testing::HasSubstr("Survey, Walk, Run"));
+  EXPECT_THAT(
+      error_of([&] { Animation(model, {.clip = "wolk"}); }),
+      testing::HasSubstr("did you mean 'Walk'?); it has, by index or name: 0 'Survey', 1 'Walk', 2 'Run'"));
+  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "3"}); }),
+              testing::HasSubstr("0 'Survey', 1 'Walk', 2 'Run'"));
 }
 
 TEST(Animation, HoldsTheLastGoodPose) {
