@@ -15,6 +15,7 @@ Command add_render(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_init(CLI::App& program);
 Command add_verify(CLI::App& program);
+Command add_size(CLI::App& program);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

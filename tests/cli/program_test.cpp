@@ -35,7 +35,7 @@ TEST_F(Program, VersionAndHelp) {
   EXPECT_THAT(version.out, testing::MatchesRegex("plisse [0-9]+\\.[0-9]+\\.[0-9]+\n"));
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* command : {"render", "info", "init", "verify"}) {
+  for (const char* command : {"render", "info", "init", "verify", "size"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const Outcome of_command = run({command, "--help"});
     EXPECT_EQ(of_command.code, 0) << command;
@@ -72,7 +72,7 @@ TEST_F(Program, UnknownCommandsAndOptionsNameTheNearest) {
   expect({"render", "--wavelenth=3", "a.glb"}, "unknown option '--wavelenth' (did you mean '--wavelength'?)");
   expect({"verify", "a.glb", "--output", "x"}, "unknown option '--output'");
   expect({"--verison"}, "unknown option '--verison' (did you mean '--version'?)");
-  expect({}, "give a command: render, info, init, verify");
+  expect({}, "give a command: render, info, init, verify, size");
   expect({"render"}, "give a SCENE.toml or a MODEL");
   expect({"init"}, "give a MODEL");
   expect({"render", "a.glb", "b.glb"}, "'b.glb' is one argument too many");

@@ -43,7 +43,7 @@ void expect_keys(const json& object, const std::vector<std::string>& keys) {
 // --------------------------------------------------------------------------------------------------------------
 
 TEST(Usage, HelpAndVersionAreFine) {
-  for (const std::string command : {"render", "info", "init", "verify"}) {
+  for (const std::string command : {"render", "info", "init", "verify", "size"}) {
     const Outcome help = plisse({command, "--help"});
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("--"));
