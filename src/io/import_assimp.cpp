@@ -16,7 +16,6 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "io/import_assimp_parts.h"
-#include "io/import_gltf_modes.h"
 #include "io/import_place.h"
 
 namespace plisse::io {
@@ -26,7 +25,6 @@ FileKind kind_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".glb" || extension == ".gltf") return FileKind::gltf;
   if (extension == ".fbx") return FileKind::fbx;
   if (extension == ".dae") return FileKind::collada;
   if (extension == ".x") return FileKind::x;
@@ -141,7 +139,6 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   hang_meshes(from, model);
   read_cameras(from, model);
   read_clips(from, model);
-  if (from.kind == FileKind::gltf) restore_gltf_modes(from, model);
   return model;
 }
 

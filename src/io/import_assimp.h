@@ -1,4 +1,4 @@
-// glTF, FBX, COLLADA, X and other formats through assimp (5.2.5, Debian 12).
+// FBX, COLLADA, X and other formats through assimp (5.2.5, Debian 12).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,4 @@
-// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear (import_gltf_modes.h
-// mends it).
+// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear.
 #include <fmt/format.h>
 
 #include <algorithm>

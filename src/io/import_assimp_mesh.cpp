@@ -7,35 +7,11 @@
 
 #include "base/log.h"
 #include "io/import_assimp_parts.h"
+#include "io/import_colour.h"
+#include "io/influences.h"
 
 namespace plisse::io {
 namespace {
-
-struct BoneWeight {
-  std::uint32_t bone;
-  double weight;
-};
-
-// The strongest eight, renormalised (Model: Influences). The vertex is the mesh's `unbound` bone's where it
-// has none.
-Influences strongest(std::vector<BoneWeight>& weights, std::uint32_t unbound) {
-  std::stable_sort(weights.begin(), weights.end(),
-                   [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
-  const std::size_t count = std::min<std::size_t>(weights.size(), max_influences);
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += weights[i].weight;
-  Influences result;
-  if (count == 0) {
-    result.bone[0] = unbound;
-    result.weight[0] = 1;
-    return result;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    result.bone[i] = weights[i].bone;
-    result.weight[i] = static_cast<float>(weights[i].weight / sum);
-  }
-  return result;
-}
 
 // The node a mesh hangs under, for vertices that no bone moves.
 const aiNode* node_with(const aiNode& node, unsigned mesh) {
@@ -140,6 +116,19 @@ void read_targets(const aiMesh& source, Mesh& mesh) {
   }
 }
 
+// As programs show them, so sRGB; white ones say nothing.
+void read_colours(const aiMesh& source, Mesh& mesh) {
+  if (!source.HasVertexColors(0)) return;
+  bool tinted = false;
+  mesh.colours.reserve(source.mNumVertices);
+  for (unsigned v = 0; v < source.mNumVertices; ++v) {
+    const aiColor4D& c = source.mColors[0][v];
+    mesh.colours.emplace_back(linear(glm::vec3(c.r, c.g, c.b)), c.a);
+    tinted |= mesh.colours.back() != glm::vec4(1);
+  }
+  if (!tinted) mesh.colours.clear();
+}
+
 Mesh read_mesh(const AssimpScene& from, unsigned mesh_id) {
   const aiMesh& source = *from.scene.mMeshes[mesh_id];
   Mesh mesh;
@@ -172,6 +161,7 @@ Mesh read_mesh(const AssimpScene& from, unsigned mesh_id) {
     for (unsigned v = 0; v < count; ++v)
       mesh.uvs.emplace_back(source.mTextureCoords[channel][v].x, source.mTextureCoords[channel][v].y);
   }
+  read_colours(source, mesh);
   read_bones(from, mesh_id, mesh);
   read_targets(source, mesh);
   return mesh;

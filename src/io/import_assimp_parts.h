@@ -15,7 +15,7 @@
 
 namespace plisse::io {
 
-enum class FileKind { gltf, fbx, collada, x, other };
+enum class FileKind { fbx, collada, x, other };
 
 struct AssimpScene {
   const aiScene& scene;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/import.h"
 #include "io/import_assimp.h"
+#include "io/import_gltf.h"
 #include "io/import_obj.h"
 #include "io/obj_sequence.h"
 
@@ -21,14 +22,15 @@ Model import_sequence(const std::filesystem::path& path, const ImportOptions& op
 }
 
 Reader reader_for(const std::filesystem::path& path) {
-  static constexpr std::array<std::string_view, 9> with_assimp{".glb", ".gltf", ".fbx", ".dae", ".x",
-                                                               ".bvh", ".ply",  ".stl", ".3ds"};
+  static constexpr std::array<std::string_view, 7> with_assimp{".fbx", ".dae", ".x",  ".bvh",
+                                                               ".ply", ".stl", ".3ds"};
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::filesystem::is_directory(path)) return import_sequence;
   if (std::filesystem::exists(path)) {
     if (extension == ".obj") return import_obj;
+    if (extension == ".glb" || extension == ".gltf") return import_gltf;
     if (std::find(with_assimp.begin(), with_assimp.end(), extension) != with_assimp.end())
       return import_assimp;
     throw Error(

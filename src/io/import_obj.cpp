@@ -201,7 +201,7 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
       // Options stand before the name; names with blanks are taken when there are no options.
       std::string name{Words(line.substr(line.find("map_Kd") + 6)).remainder()};
       if (name.starts_with('-')) name = name.substr(name.find_last_of(" \t") + 1);
-      material->base_colour_texture = load_texture_file(path, name, model);
+      material->base_colour_texture = load_texture_file(path, name, Texture::Use::colour, model);
       if (material->base_colour_texture >= 0) material->base_colour = {1, 1, 1, material->base_colour.a};
     }
   });

@@ -77,32 +77,32 @@ std::filesystem::path find_texture(const std::filesystem::path& model, const std
   return {};
 }
 
-int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Model& model) {
+int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Texture::Use use,
+                       Model& model) {
   for (std::size_t i = 0; i < model.textures.size(); ++i)
-    if (model.textures[i].name == name) return static_cast<int>(i);
+    if (model.textures[i].name == name && model.textures[i].use == use) return static_cast<int>(i);
   std::string why;
   std::optional<Image> image = decode_image(bytes, why);
   if (!image) {
-    log::warn_once(
-        "texture " + name,
-        fmt::format("texture '{}' cannot be decoded ({}); the base colour stands in for it", name, why));
+    log::warn_once("texture " + name,
+                   fmt::format("texture '{}' cannot be decoded ({}); it is left out", name, why));
     return -1;
   }
-  model.textures.push_back({name, std::move(*image)});
+  model.textures.push_back({name, std::move(*image), use});
   return static_cast<int>(model.textures.size()) - 1;
 }
 
-int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Model& model) {
+int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Texture::Use use,
+                      Model& model) {
   const std::filesystem::path path = find_texture(model_file, name);
   if (path.empty()) {
-    log::warn_once("texture " + name,
-                   fmt::format("{}: texture '{}' not found beside it; the base colour stands in for it",
-                               model_file.string(), name));
+    log::warn_once("texture " + name, fmt::format("{}: texture '{}' not found beside it; it is left out",
+                                                  model_file.string(), name));
     return -1;
   }
   std::ifstream stream(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return load_texture_bytes(std::as_bytes(std::span(bytes)), path.string(), model);
+  return load_texture_bytes(std::as_bytes(std::span(bytes)), path.string(), use, model);
 }
 
 }  // namespace plisse::io

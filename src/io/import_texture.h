@@ -19,10 +19,12 @@ std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string&
 // not found.
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name);
 
-// Adds the texture to model.textures, or finds it there under the same name. `model_file` is the file that
-// names it. −1, after one warning, where it is missing or cannot be decoded: the base colour stands in for
-// it.
-int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Model& model);
-int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Model& model);
+// Adds the texture to model.textures, or finds it there under the same name and for the same use.
+// `model_file` is the file that names it. −1, after one warning, where it is missing or cannot be decoded:
+// the base colour stands in for it.
+int load_texture_file(const std::filesystem::path& model_file, const std::string& name, Texture::Use use,
+                      Model& model);
+int load_texture_bytes(std::span<const std::byte> bytes, const std::string& name, Texture::Use use,
+                       Model& model);
 
 }  // namespace plisse::io
