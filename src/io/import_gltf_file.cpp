@@ -143,6 +143,7 @@ std::optional<std::vector<std::byte>> from_base64(std::string_view text) {
 GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
   auto file = read_file(path);
   if (!file) fail(path, "cannot be read");
+  if (file->empty()) fail(path, "is empty");
   if (file->size() >= 4 && word_at(*file, 0) == glb_magic) {
     const Chunks chunks = chunks_of(*file, path);
     json_ = std::make_unique<Json>(parse(chunks.json, path));
