@@ -132,6 +132,17 @@ void relax(const Topology& topology, WaveField& field, const RelaxSettings& sett
     descent_round(topology, field, settings.epsilon);
 }
 
+void lead(Eigen::VectorXd& phases, std::vector<CrushState>& states, const Eigen::VectorXd& aim_phases,
+          const std::vector<CrushState>& aim_states, Status which, double share) {
+  for (std::size_t v = 0; v < states.size(); ++v) {
+    if (states[v].status != which || aim_states[v].status != Status::set) continue;
+    const auto i = static_cast<Index>(v);
+    const double sign = states[v].direction.dot(aim_states[v].direction) < 0 ? -1 : 1;
+    phases[i] = wrap_radians(phases[i] + share * wrap_radians(sign * aim_phases[i] - phases[i]));
+    states[v].status = Status::set;
+  }
+}
+
 double misfit(const Topology& topology, const WaveField& field) {
   double sum = 0;
   std::size_t count = 0;

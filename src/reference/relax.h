@@ -61,6 +61,12 @@ struct RelaxSettings {
 // A frame's whole relaxation: onset first (smooth), then descent. Changes phases and status of the field.
 void relax(const Topology& topology, WaveField& field, const RelaxSettings& settings);
 
+// A loop's closing: moves each phase whose status is `which`, and whose vertex was set in the moment that the
+// loop is led to, by `share` of the way to that moment's phase (its sign turned where k has turned over). A
+// fresh vertex becomes set thereby. Phases in radians, an entry a vertex.
+void lead(Eigen::VectorXd& phases, std::vector<CrushState>& states, const Eigen::VectorXd& aim_phases,
+          const std::vector<CrushState>& aim_states, Status which, double share);
+
 // --- measures of a relaxed field
 // ------------------------------------------------------------------------------ E[d²] in turns² over
 // directed edges between wrinkled (w > 0) vertices; 0 without any.

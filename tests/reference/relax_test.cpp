@@ -279,5 +279,26 @@ TEST(ReferenceRelax, SmoothingHoldsSetVerticesAndIgnoresIdleOnes) {
   EXPECT_EQ(field.status[12], Status::set);
 }
 
+TEST(ReferenceRelax, LeadingGoesAShareOfTheShorterWay) {
+  const Eigen::Vector2d x = Eigen::Vector2d::UnitX();
+  VectorXd phases(5), aim(5);
+  phases << 3.0, 0.5, 0.5, 0.5, 0.5;
+  aim << -3.0, 1.5, 1.5, -1.5, 1.5;
+  std::vector<CrushState> states(5, {x, Status::set}), aims(5, {x, Status::set});
+  states[1].status = Status::idle;   // stays
+  aims[2].status = Status::idle;     // nothing to be led to
+  aims[3].direction = -x;            // the same wave with k turned over: φ = 1.5
+  states[4].status = Status::fresh;  // not asked for
+  lead(phases, states, aim, aims, Status::set, 0.25);
+  EXPECT_NEAR(phases[0], 3 + 0.25 * (2 * pi - 6), rounding);  // across π
+  EXPECT_EQ(phases[1], 0.5);
+  EXPECT_EQ(phases[2], 0.5);
+  EXPECT_NEAR(phases[3], 0.75, rounding);
+  EXPECT_EQ(phases[4], 0.5);
+  lead(phases, states, aim, aims, Status::fresh, 1);
+  EXPECT_NEAR(phases[4], 1.5, rounding);
+  EXPECT_EQ(states[4].status, Status::set);
+}
+
 }  // namespace
 }  // namespace plisse::reference
