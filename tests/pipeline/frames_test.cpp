@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "base/error.h"
 #include "config/scene_file.h"
 #include "pipeline.h"
 #include "support/files.h"
+#include "support/gltf.h"
 #include "support/opengl.h"
 
 namespace plisse {
@@ -42,6 +44,13 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& folder, int numb
 
 RenderReport run(const RenderRequest& request) {
   return render(request, {});
+}
+
+// The sleeve with another texture.
+std::string other_print(const std::filesystem::path& file) {
+  return test::altered_glb(test::asset("sleeve.glb"), file,
+                           [](nlohmann::json& gltf) { gltf["textures"][1]["source"] = 0; })
+      .string();
 }
 
 struct Variant {
@@ -152,27 +161,44 @@ TEST_F(Frames, SkipExistingTrustsOnlyWholeFramesOfTheSameScene) {
   EXPECT_NE(bytes_of(folder.path(), 3), good[2]);
   EXPECT_EQ(rendered_again(request), std::vector<int>{3});
   EXPECT_EQ(bytes_of(folder.path(), 3), good[2]);
+}
 
-  // Whatever decides a pixel counts; where the scene stands and which frames are picked does not.
-  const auto all_again = [&](auto&& alter) {
-    RenderRequest altered = request;
-    alter(altered.scene);
-    altered.scene.model.frames = "2";
-    const auto frames = rendered_again(altered);
-    run(small_sleeve(folder.path(), "2"));  // leaves another hash: loop is on
-    altered.skip_existing = false;
-    return frames.size();
+// Whatever decides a pixel counts: a frame of another scene is never taken for one of this. Each alteration
+// meets a frame that is trusted until then.
+TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixel) {
+  const TemporaryFolder folder;
+  RenderRequest request = small_sleeve(folder.path(), "2");
+  request.scene.model.loop = false;
+  request.skip_existing = true;
+  const auto rendered_again = [&](const RenderRequest& with) {
+    int count = 0;
+    for (const FrameReport& report : run(with).frames) count += report.skipped ? 0 : 1;
+    return count;
   };
-  RenderRequest frame_two = request;
-  frame_two.scene.model.frames = "2";
-  EXPECT_EQ(rendered_again(frame_two).size(), 0U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.wrinkles.strength = 0.5; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.wrinkles.seed = 5; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.relax.rounds = 2; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.output.samples = 1; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.light.key_intensity = 1; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.camera.focal_length = 80; }), 1U);
-  EXPECT_EQ(all_again([](SceneSettings& s) { s.wrinkles.profile = "accordion"; }), 1U);
+  using Alteration = std::function<void(RenderRequest&)>;
+  const std::vector<std::pair<std::string, Alteration>> alterations = {
+      {"strength", [](RenderRequest& r) { r.scene.wrinkles.strength = 0.5; }},
+      {"seed", [](RenderRequest& r) { r.scene.wrinkles.seed = 5; }},
+      {"profile", [](RenderRequest& r) { r.scene.wrinkles.profile = "accordion"; }},
+      {"wavelength", [](RenderRequest& r) { r.scene.wrinkles.wavelength *= 1.01; }},
+      {"rounds", [](RenderRequest& r) { r.scene.relax.rounds = 2; }},
+      {"loop", [](RenderRequest& r) { r.scene.model.loop = true; }},
+      {"samples", [](RenderRequest& r) { r.scene.output.samples = 1; }},
+      {"background", [](RenderRequest& r) { r.scene.output.background.x *= 0.9F; }},
+      {"ground", [](RenderRequest& r) { r.scene.output.ground = !r.scene.output.ground; }},
+      {"key light", [](RenderRequest& r) { r.scene.light.key_intensity = 1; }},
+      {"focal length", [](RenderRequest& r) { r.scene.camera.focal_length = 80; }},
+      {"roughness", [](RenderRequest& r) { r.scene.shading.roughness = 0.4; }},
+      {"texture", [&](RenderRequest& r) { r.scene.model.path = other_print(folder.path() / "print.glb"); }},
+  };
+  rendered_again(request);
+  for (const auto& [name, alter] : alterations) {
+    ASSERT_EQ(rendered_again(request), 0) << "before " << name;
+    RenderRequest altered = request;
+    alter(altered);
+    EXPECT_EQ(rendered_again(altered), 1) << name;
+    EXPECT_EQ(rendered_again(request), 1) << "after " << name;
+  }
 }
 
 TEST_F(Frames, NothingElseIsLeftInTheFolder) {
