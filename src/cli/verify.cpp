@@ -52,38 +52,42 @@ ordered_json to_json(const VerifyReport& report) {
   ordered_json passes = ordered_json::object();
   for (const std::string& name : pass_order(report)) {
     const PassComparison& pass = report.passes.at(name);
-    passes[name] = {{"max_abs", pass.max_abs},
-                    {"rms", pass.rms},
-                    {"tolerance", pass.tolerance},
-                    {"ok", pass.ok},
-                    {"unit", pass.unit}};
+    passes[name] = {{"max_abs", pass.max_abs}, {"rms", pass.rms},   {"tolerance", pass.tolerance},
+                    {"ok", pass.ok},           {"unit", pass.unit}, {"compared", pass.compared}};
   }
   passes["render"]["fraction_within_4"] = report.fraction_within_4;
   passes["render"]["mean_flip"] = report.mean_flip;
   passes["render"]["silhouette_fraction"] = report.silhouette_fraction;
-  return {{"ok", report.ok},
+  return {{"ok", report.interrupted ? ordered_json() : ordered_json(report.ok)},
+          {"interrupted", report.interrupted},
           {"gl", cli::to_json(report.gl)},
           {"frames", report.frames},
           {"passes", passes},
-          {"chain", {{"phase_rms", report.chain_phase_rms}, {"image_flip", report.chain_image_flip}}},
+          {"chain",
+           {{"phase_rms", report.chain_phase_rms},
+            {"phase_tolerance", report.chain_phase_tolerance},
+            {"image_flip", report.chain_image_flip},
+            {"flip_tolerance", report.chain_flip_tolerance},
+            {"ok", report.chain_ok}}},
           {"failures", report.failures}};
 }
 
 std::string table(const VerifyReport& report) {
   std::string text = fmt::format("{} ({})\nframes {}\n\n", report.gl.renderer, report.gl.version,
                                  fmt::join(report.frames, ", "));
-  text += fmt::format("{:<20} {:>11} {:>11} {:>11}\n", "pass", "max", "rms", "tolerance");
+  text += fmt::format("{:<20} {:>9} {:>11} {:>11} {:>11}\n", "pass", "compared", "max", "rms", "tolerance");
   for (const std::string& name : pass_order(report)) {
     const PassComparison& pass = report.passes.at(name);
-    text += fmt::format("{:<20} {:>11.3e} {:>11.3e} {:>11.3e}  {:<6} {}\n", name, pass.max_abs, pass.rms,
-                        pass.tolerance, pass.ok ? "ok" : "FAILED", pass.unit);
+    text += fmt::format("{:<20} {:>9} {:>11.3e} {:>11.3e} {:>11.3e}  {:<6} {}\n", name, pass.compared,
+                        pass.max_abs, pass.rms, pass.tolerance, pass.ok ? "ok" : "FAILED", pass.unit);
   }
   text += fmt::format(
       "\nimage: {:.3f} % of pixels within 4/255, mean FLIP {:.5f}, silhouettes {:.3f} % of pixels\n",
       100 * report.fraction_within_4, report.mean_flip, 100 * report.silhouette_fraction);
-  text += fmt::format("chain: phase rms {:.3e} rad, image FLIP {:.5f}\n", report.chain_phase_rms,
-                      report.chain_image_flip);
+  text += fmt::format("chain: phase rms {:.3e} rad, image FLIP {:.5f}  {}\n", report.chain_phase_rms,
+                      report.chain_image_flip, report.chain_ok ? "ok" : "FAILED");
   for (const std::string& failure : report.failures) text += failure + "\n";
+  if (report.interrupted) return text + "interrupted: no verdict\n";
   return text + (report.ok ? "ok\n" : "FAILED\n");
 }
 
@@ -106,7 +110,7 @@ int run_verify(Arguments& arguments) {
   }
   if (arguments.common.tables_wanted()) write_stdout(table(report));
   write_report(to_json(report), arguments.common.json());
-  if (interrupted()) return 128 + signal_number();
+  if (report.interrupted) return 128 + signal_number();
   return static_cast<int>(report.ok ? ExitCode::fine : ExitCode::check_failed);
 }
 

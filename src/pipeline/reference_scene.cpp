@@ -238,7 +238,9 @@ ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
 
-void ReferenceChain::step(int step, const Pose& pose, bool with_crush) {
+void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
+                          const std::vector<Eigen::Vector2d>& first_directions) {
+  first_directions_ = first_directions;
   if (last_.empty() || last_.front() != pose) advance(step, pose, with_crush);
   if (scene_.scene.remembers_at(step)) remembered_ = now_;
 }
@@ -248,10 +250,15 @@ void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
   now_.positions = scene_.positions(pose);
   now_.frames = scene_.frames(pose, now_.positions);
   if (!with_crush) return;
-  const auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
-                                        scene_.wavelength, scene_.mask, scene_.crush, now_.states);
+  auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
+                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
+    if (now_.states[v].direction.isZero(0) && crushed[v].direction.dot(first_directions_[v]) < 0) {
+      crushed[v].direction *= -1;
+      crushed[v].wave_vector *= -1;
+      crushed[v].wavenumber *= -1;
+    }
     now_.wavenumbers.col(i) = crushed[v].wavenumber;
     now_.heights[i] = crushed[v].height;
     now_.weights[i] = crushed[v].weight;
@@ -268,16 +275,7 @@ void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
 }
 
 void ReferenceChain::lead(reference::Status which, double share) {
-  for (std::size_t v = 0; v < now_.states.size(); ++v) {
-    auto& own = now_.states[v];
-    const auto& aim = remembered_.states[v];
-    if (own.status != which || aim.status != reference::Status::set) continue;
-    const auto i = static_cast<Index>(v);
-    const double sign = own.direction.dot(aim.direction) < 0 ? -1 : 1;
-    now_.phases[i] = reference::wrap_radians(
-        now_.phases[i] + share * reference::wrap_radians(sign * remembered_.phases[i] - now_.phases[i]));
-    own.status = reference::Status::set;
-  }
+  reference::lead(now_.phases, now_.states, remembered_.phases, remembered_.states, which, share);
 }
 
 }  // namespace plisse::pipeline

@@ -52,8 +52,11 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene);
 class ReferenceChain {
  public:
   explicit ReferenceChain(const ReferenceScene& scene);
-  // `step` decides where a loop's phases are remembered and led (LoadedScene).
-  void step(int step, const Pose& pose, bool with_crush);
+  // `step` decides where a loop's phases are remembered and led (LoadedScene). `first_directions`: k of the
+  // run to compare with, an entry a vertex; a direction taken for the first time has the sign of that one,
+  // since its sign is free and the phases of the onset hang on it.
+  void step(int step, const Pose& pose, bool with_crush,
+            const std::vector<Eigen::Vector2d>& first_directions);
   const WaveSnapshot& now() const { return now_; }
 
  private:
@@ -62,6 +65,7 @@ class ReferenceChain {
   void advance(int step, const Pose& pose, bool with_crush);
   void lead(reference::Status which, double share);
   std::vector<Pose> last_;  // at most one
+  std::vector<Eigen::Vector2d> first_directions_;
   WaveSnapshot remembered_;
 };
 

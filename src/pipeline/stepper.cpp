@@ -79,11 +79,15 @@ void Stepper::advance_to(int step) {
       if (crush_runs_at(step_)) {
         const double share = scene_.lead_at(step_);
         crush();
-        if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);
         observe(Stage::crushed);
+        if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);
+        observe(Stage::begun);
         relax();
         observe(Stage::relaxed);
-        if (share > 0) relax_.lead(surface_, remembered_phases_, remembered_states_, share);
+        if (share > 0) {
+          relax_.lead(surface_, remembered_phases_, remembered_states_, share);
+          observe(Stage::led);
+        }
       }
       last_pose_ = pose;
     }

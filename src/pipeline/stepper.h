@@ -36,8 +36,8 @@ class Stepper {
   passes::SurfaceBuffers& surface() { return surface_; }
 
   // Called inside a step, after the stage named, for who wants to look between the passes. `posed`: skin is
-  // done.
-  enum class Stage { posed, crushed, relaxed };
+  // done; `begun`: fresh waves of a closing loop have their phases; `led`: so have all of its others.
+  enum class Stage { posed, crushed, begun, relaxed, led };
   std::function<void(Stage)> observer;
 
   // The state under a name, keyed by everything that led to it. Reading returns whether it fitted; if not, a

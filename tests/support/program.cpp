@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -41,7 +42,7 @@ int code_of(int status) {
 
 Outcome run_until(const std::string& program, const std::vector<std::string>& arguments,
                   const Environment& environment, const std::filesystem::path& folder, int signal,
-                  const std::filesystem::path& sign) {
+                  const std::function<bool(const std::string&)>& is_time) {
   const TemporaryFolder streams;
   const auto out = streams / "out", err = streams / "err";
   const pid_t child = fork();
@@ -52,7 +53,7 @@ Outcome run_until(const std::string& program, const std::vector<std::string>& ar
     waitpid(child, &status, 0);
   } else {
     while (waitpid(child, &status, WNOHANG) == 0) {
-      if (std::filesystem::exists(sign)) {
+      if (is_time(read_text(err))) {
         kill(child, signal);
         waitpid(child, &status, 0);
         break;
@@ -72,7 +73,14 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
 
 Outcome interrupt_program(const std::string& program, const std::vector<std::string>& arguments, int signal,
                           const std::filesystem::path& sign) {
-  return run_until(program, arguments, {}, ".", signal, sign);
+  return run_until(program, arguments, {}, ".", signal,
+                   [&](const std::string&) { return std::filesystem::exists(sign); });
+}
+
+Outcome interrupt_program_saying(const std::string& program, const std::vector<std::string>& arguments,
+                                 int signal, const std::string& words) {
+  return run_until(program, arguments, {}, ".", signal,
+                   [&](const std::string& err) { return err.find(words) != std::string::npos; });
 }
 
 }  // namespace plisse::test

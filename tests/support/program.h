@@ -23,4 +23,8 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
 Outcome interrupt_program(const std::string& program, const std::vector<std::string>& arguments, int signal,
                           const std::filesystem::path& sign);
 
+// The same, as soon as it has said `words` on standard error.
+Outcome interrupt_program_saying(const std::string& program, const std::vector<std::string>& arguments,
+                                 int signal, const std::string& words);
+
 }  // namespace plisse::test

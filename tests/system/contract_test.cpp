@@ -189,6 +189,24 @@ TEST_F(Program, ASignalEndsItBetweenFrames) {
   }
 }
 
+TEST_F(Program, AnInterruptedVerifyGivesNoVerdict) {
+  const TemporaryFolder folder;
+  const std::string report = (folder / "report.json").string();
+  const Outcome outcome = interrupt_program_saying(
+      PLISSE_PROGRAM,
+      {"verify", asset("sleeve.toml").string(), "--size", "160x128", "--frames", "1-72", "--json", report},
+      SIGINT, "\n");  // the first frame's line
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("interrupted"), Not(HasSubstr("\nok\n"))));
+  const json written = json::parse(read_text(report));
+  EXPECT_EQ(written["interrupted"], true);
+  EXPECT_TRUE(written["ok"].is_null());
+  // As many frames as were compared: each has its line.
+  const auto lines = std::count(outcome.err.begin(), outcome.err.end(), '\n');
+  EXPECT_EQ(written["frames"].size(), static_cast<std::size_t>(lines));
+  EXPECT_LT(written["frames"].size(), 72U);
+}
+
 TEST_F(Program, LogsGoToStandardErrorAndQuietIsQuiet) {
   const TemporaryFolder folder;
   const auto render = with_tiny({"render", square, "--frames", "1-2", "-o", folder.path().string()});
@@ -234,16 +252,17 @@ TEST_F(Program, VerifyReports) {
   ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
   EXPECT_THAT(outcome.out, HasSubstr("ok"));
   const json report = json::parse(read_text(file));
-  expect_keys(report, {"ok", "frames", "passes", "chain"});
+  expect_keys(report, {"ok", "interrupted", "frames", "passes", "chain"});
   EXPECT_EQ(report["ok"], true);
   EXPECT_EQ(report["frames"], json::array({40}));
   for (const std::string pass : {"skin", "crush", "relax", "render"}) {
     ASSERT_TRUE(report["passes"].contains(pass)) << pass;
-    expect_keys(report["passes"][pass], {"max_abs", "rms", "tolerance", "ok"});
+    expect_keys(report["passes"][pass], {"max_abs", "rms", "tolerance", "ok", "unit", "compared"});
     EXPECT_EQ(report["passes"][pass]["ok"], true) << pass;
   }
   expect_keys(report["passes"]["render"], {"fraction_within_4", "mean_flip", "silhouette_fraction"});
-  expect_keys(report["chain"], {"phase_rms", "image_flip"});
+  expect_keys(report["chain"], {"phase_rms", "phase_tolerance", "image_flip", "flip_tolerance", "ok"});
+  EXPECT_EQ(report["interrupted"], false);
 }
 
 TEST(Reports, Info) {

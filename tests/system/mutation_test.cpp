@@ -31,7 +31,7 @@ TEST_P(Mutations, AreNoticed) {
   }
   const std::string report = (folder / "report.json").string();
   const Outcome outcome = plisse({"verify", asset("sleeve.toml").string(), "--size", "96x80", "--frames",
-                                  "10,40", "--shaders", (folder / "shaders").string(), "--json", report});
+                                  "10,40,60", "--shaders", (folder / "shaders").string(), "--json", report});
   const auto json = nlohmann::json::parse(read_text(report));
   if (mutation.file.empty()) {
     EXPECT_EQ(outcome.code, 0) << outcome.out;
@@ -55,6 +55,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mutation{"CrushHeight", "crush.comp", "0.25 * sqrt", "0.2501 * sqrt", "crush"},
         Mutation{"CrushDirection", "crush.comp", "vec2 v2 = vec2(-v1.y, v1.x);",
                  "vec2 v2 = vec2(-v1.y, 1.01 * v1.x);", "crush"},
+        Mutation{"CrushSignOfEachFrame", "crush.comp", "k = normalize(", "k = -normalize(", "crush"},
+        Mutation{"CrushWeight", "crush.comp", "- 0.0125) / 0.0625", "- 0.0125) / 0.0645", "crush"},
+        Mutation{"CrushStatus", "crush.comp", "s > dead_zone)", "s > 1.1 * dead_zone)", "crush"},
+        Mutation{"RelaxLead", "relax.comp", "phases_out[v] = vec2(2.0 * pi * wrap_turns(turns), set);", "",
+                 "relax"},
+        Mutation{"RelaxLeadsShare", "relax.comp", "turns += fraction", "turns += 1.1 * fraction", "relax"},
         Mutation{"RelaxMiddle", "relax.comp", "0.5 * (position(n)", "0.51 * (position(n)", "relax"},
         Mutation{"RelaxSign", "relax.comp", "? -1.0 : 1.0;", "? 1.0 : 1.0;", "relax"},
         Mutation{"RenderSlope", "render.vert", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},

@@ -1,0 +1,59 @@
+// Skin, crush and relax of a run on the GPU against the reference, each fed what the GPU's own pass was fed
+// (docs/contract.md, "State over time", rule 6), and the drift of the whole chain apart.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "pipeline/reference_scene.h"
+#include "pipeline/stepper.h"
+#include "pipeline/tally.h"
+
+namespace plisse::pipeline {
+
+class WaveComparison {
+ public:
+  // Compares what `stepper` does. All three outlive this.
+  WaveComparison(LoadedScene& scene, const ReferenceScene& reference, Stepper& stepper,
+                 const std::string& shader_folder);
+
+  // To be called before a step; `looking`: its passes are compared.
+  void before_step(int step, bool looking);
+  // Inside it: the stepper's observer.
+  void observe(Stepper::Stage stage);
+  // After every step, looked at or not.
+  void after_step(int step);
+
+  // The same moment with every pass in double precision from the clip's start.
+  const WaveSnapshot& chain() const { return chain_.now(); }
+  // Of the phases of the chain against those of `gpu`: radians, root mean square over wrinkled vertices.
+  double chain_phase_difference(const WaveSnapshot& gpu) const;
+
+  void report(std::map<std::string, PassComparison>& passes) const;
+
+ private:
+  void compare_skin(const WaveSnapshot& gpu);
+  void compare_crush(const WaveSnapshot& gpu);
+  void compare_relax(const WaveSnapshot& before, const WaveSnapshot& after,
+                     const reference::RelaxSettings& settings, Tally& tally);
+  void compare_ten_rounds();
+  void compare_lead(const WaveSnapshot& before, const WaveSnapshot& after, reference::Status which,
+                    double share);
+
+  LoadedScene& scene_;
+  const ReferenceScene& reference_;
+  Stepper& stepper_;
+  ReferenceChain chain_;
+  passes::RelaxPass scratch_relax_;
+
+  Pose pose_;
+  bool looking_ = false;
+  double share_ = 0;                      // of the way that this step leads a loop's phases
+  WaveSnapshot before_, crushed_, last_;  // before the step; after crush; at the last stage seen
+  WaveSnapshot remembered_;               // what a loop is led to
+  Tally skin_, frame_;
+  Tally r_, height_, easing_, weight_, wave_vector_, status_;
+  Tally relax_, ten_rounds_, lead_;
+};
+
+}  // namespace plisse::pipeline
