@@ -185,6 +185,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
     material.base_alpha = static_cast<double>(part.base_colour.a);
     material.texture = part.texture;
     material.alpha_cutoff = part.alpha_cutoff > 0 ? static_cast<double>(part.alpha_cutoff) : -1;
+    material.blended = part.has_alpha;
     material.two_sided = part.two_sided;
     result.materials.push_back(material);
     for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {

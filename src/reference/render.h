@@ -14,9 +14,10 @@ namespace plisse::reference {
 // Rows from the top of the picture downward. Entries are row·width + column.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Eigen::Vector3d> colour;   // linear; 0 where nothing is seen
-  std::vector<int> triangle;             // the visible triangle, −1 none (coverage)
-  std::vector<double> depth;             // z/w, −1…1; 2 none
+  std::vector<Eigen::Vector3d> colour;   // linear, times alpha; 0 where nothing is seen
+  std::vector<double> alpha;             // how much of what stands behind the surface is hidden, 0…1
+  std::vector<int> triangle;             // the foremost triangle drawn, −1 none (coverage)
+  std::vector<double> depth;             // its z/w, −1…1; 2 none
   std::vector<std::uint8_t> silhouette;  // 1: what this pixel sees may rightly differ (below)
 };
 
@@ -34,7 +35,9 @@ struct Picture {
 //  4. the centre is within reach of an edge of the visible triangle, beyond which the surface does not go on
 //  in such a
 //     neighbour; or
-//  5. its alpha is within 0.02 of the cut (cut pixels and those that stay).
+//  5. its alpha is within 0.02 of the cut (cut pixels and those that stay); or
+//  6. the centre is within reach of an edge of a blended triangle beyond which no other blended one goes on,
+//  or the depths of a blended triangle and the visible opaque one agree to that tolerance.
 Picture render(const Scene& scene, int width, int height);
 
 }  // namespace plisse::reference

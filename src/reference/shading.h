@@ -38,7 +38,8 @@ struct Material {
   Eigen::Vector3d base_colour{1, 1, 1};
   double base_alpha = 1;
   int texture = -1;          // −1 none
-  double alpha_cutoff = -1;  // pixels with less alpha are cut; negative: opaque
+  double alpha_cutoff = -1;  // pixels with less alpha are cut; negative: none
+  bool blended = false;      // over what is behind it, by its alpha; else opaque
   bool two_sided = true;     // false: triangles seen from behind are not drawn
 };
 

@@ -236,6 +236,42 @@ TEST(ReferenceRaster, AlphaCutsAndBacksVanish) {
   EXPECT_EQ(render(scene, 8, 8).triangle[4 * 8 + 4], 1);
 }
 
+// Blended triangles: after the others, in the order of the list, hidden by nearer opaque ones only.
+TEST(ReferenceRaster, BlendedTrianglesCompositeInDrawOrder) {
+  Scene scene = plain_scene();
+  const auto at = [](double z, std::array<std::uint32_t, 3> ids) {
+    return plain({-1, -1, z}, {1, -1, z}, {0, 1, z}, ids);
+  };
+  scene.triangles = {at(0, {0, 1, 2}), at(-0.2, {3, 4, 5}), at(-0.4, {6, 7, 8}), at(0.5, {9, 10, 11})};
+  scene.materials.resize(4);
+  const double alphas[] = {1, 0.25, 0.5, 0.75};
+  for (int i = 0; i < 4; ++i) {
+    auto& material = scene.materials[static_cast<std::size_t>(i)];
+    scene.triangles[static_cast<std::size_t>(i)].material = i;
+    material.base_colour = Vector3d::Constant(0.2 * (i + 1));
+    material.base_alpha = alphas[i];
+    material.blended = i > 0;
+  }
+  const std::size_t middle = 4 * 8 + 4;
+  // ½ of the light: the floor .1, over it ¼ of .2 and ½ of .3; the last is behind the first.
+  const Picture all = render(scene, 8, 8);
+  EXPECT_NEAR(all.colour[middle].x(), 0.5 * 0.3 + 0.5 * (0.25 * 0.2 + 0.75 * 0.1), 1e-14);
+  EXPECT_EQ(all.alpha[middle], 1);
+  EXPECT_EQ(all.triangle[middle], 2);
+  EXPECT_EQ(all.silhouette[middle], 0);
+  // Drawn the other way round, the farther lies on the nearer: they do not hide each other.
+  std::swap(scene.triangles[1], scene.triangles[2]);
+  EXPECT_NEAR(render(scene, 8, 8).colour[middle].x(), 0.25 * 0.2 + 0.75 * (0.5 * 0.3 + 0.5 * 0.1), 1e-14);
+  // Over nothing colours stay premultiplied.
+  scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
+  const Picture veil = render(scene, 8, 8);
+  EXPECT_NEAR(veil.alpha[middle], 0.75 + 0.25 * 0.25, 1e-14);
+  EXPECT_NEAR(veil.colour[middle].x(), 0.75 * 0.4 + 0.25 * 0.25 * 0.2, 1e-14);
+  // An opaque one of the same colour says nothing of alpha.
+  scene.materials[3].blended = false;
+  EXPECT_NEAR(render(scene, 8, 8).alpha[middle], 1, 1e-14);
+}
+
 // --- shading
 // --------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,18 @@
+// Reference of what stands behind the surface (docs/passes.md, "Backdrop"): one colour, or a studio's floor
+// that runs into its wall without a seam, with the surface's shadows on it.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "reference/ground.h"
+
+namespace plisse::reference {
+
+// Linear colours of the picture's pixels, rows from the top downward, entry row·width + column.
+// `background`: linear; `view_projection`: world → clip.
+std::vector<Eigen::Vector3d> backdrop(const Eigen::Vector3d& background,
+                                      const Eigen::Matrix4d& view_projection, const Ground& ground,
+                                      const GroundMap& map, int width, int height);
+
+}  // namespace plisse::reference
