@@ -12,7 +12,6 @@
 namespace plisse::passes {
 namespace {
 
-constexpr int ground_size = 256, top_size = 512;
 constexpr double ground_reach = 3.2;    // half the ground map's side, in radii of the model
 constexpr double contact_reach = 0.05;  // how far above the floor the surface still darkens it, in radii
 
@@ -144,7 +143,7 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
       glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
       glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-    top_texture_ = depth_map(top_framebuffer_, top_size);
+    top_texture_ = depth_map(top_framebuffer_, below_size);
   }
   if (look.shadows || look.ground) {
     shadow_texture_ = depth_map(shadow_framebuffer_, shadow_size);
@@ -241,7 +240,7 @@ void RenderPass::draw_shadow_map(const SurfaceBuffers& surface, const View& view
         view.bounds_centre + (view.floor + radius - glm::dot(view.bounds_centre, view.up)) * view.up;
     const glm::dmat4 top = parallel_projection(centre, radius, view.up);
     top_matrix_ = clip_to_unit() * top;
-    draw(top_framebuffer_, top_size, top);
+    draw(top_framebuffer_, below_size, top);
   }
 }
 
@@ -403,12 +402,25 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   gpu::check("while rendering an AOV");
 }
 
-std::vector<float> RenderPass::shadow_map() const {
-  std::vector<float> depths(static_cast<std::size_t>(shadow_size) * shadow_size);
+namespace {
+template <typename Texel>
+std::vector<Texel> texels(unsigned texture, int size, GLenum format) {
+  std::vector<Texel> result(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(shadow_texture_, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                    static_cast<GLsizei>(depths.size() * sizeof(float)), depths.data());
-  return depths;
+  glGetTextureImage(texture, 0, format, GL_FLOAT, static_cast<GLsizei>(result.size() * sizeof(Texel)),
+                    result.data());
+  return result;
+}
+}  // namespace
+
+std::vector<float> RenderPass::shadow_map() const {
+  return texels<float>(shadow_texture_, shadow_size, GL_DEPTH_COMPONENT);
+}
+std::vector<float> RenderPass::map_from_below() const {
+  return texels<float>(top_texture_, below_size, GL_DEPTH_COMPONENT);
+}
+std::vector<glm::vec2> RenderPass::ground_map() const {
+  return texels<glm::vec2>(ground_textures_[0], ground_size, GL_RG);
 }
 
 }  // namespace plisse::passes

@@ -71,12 +71,15 @@ class RenderPass {
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
 
-  // The key light's depth map of the last draw (0…1, rows from bottom to top) and what maps a world point
-  // into it.
-  static constexpr int shadow_size = 1024;
+  // From now on as Look::transparent says.
+  void set_transparent(bool transparent) { look_.transparent = transparent; }
+
+  // What the last draw took shadows from (docs/passes.md, "Depth maps", "Ground"), rows from bottom to top:
+  // the key light's depth map, that from below, and the shares of light and sky that the ground loses.
+  static constexpr int shadow_size = 1024, below_size = 512, ground_size = 256;
   std::vector<float> shadow_map() const;
-  const glm::dmat4& shadow_matrix() const { return shadow_matrix_; }
-  double shadow_texel() const { return shadow_texel_; }  // its size in the world
+  std::vector<float> map_from_below() const;
+  std::vector<glm::vec2> ground_map() const;
   static constexpr double shadow_offset = 1e-3;
 
  private:

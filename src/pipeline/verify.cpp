@@ -2,6 +2,7 @@
 // so that the error of one is not charged to the next (docs/contract.md, "State over time", rule 6). The
 // drift of the whole chain is reported apart.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -21,7 +22,9 @@ constexpr double flip_tolerance = 0.02;
 // of its own, up to π: four such vertices in a thousand are .2. A step that is left out, or a sign that is
 // wrong in every frame, makes a radian and more of all of them.
 constexpr double chain_tolerance = 0.2;  // rad, root mean square
-constexpr int largest_side = 640;        // of the pictures compared: the reference is no renderer for 4k
+// A verdict rests on more than half of what is seen. The outline takes about 4/n of a thing n pixels wide.
+constexpr double silhouette_limit = 0.5;
+constexpr int largest_side = 640;  // of the pictures compared: the reference is no renderer for 4k
 
 SceneSettings small(SceneSettings settings) {
   auto& output = settings.output;
@@ -100,9 +103,22 @@ class Verifier {
                        name, 100 * pass.within, pass.compared, pass.tolerance, pass.unit, 100 * pass.fraction,
                        pass.max_abs));
     }
-    if (report.mean_flip > flip_tolerance) {
-      fail(fmt::format("render: mean FLIP {:.4f}, tolerance {}", report.mean_flip, flip_tolerance));
+    const auto fail_render = [&](std::string sentence) {
+      fail(std::move(sentence));
       report.passes["render"].ok = false;
+    };
+    if (report.mean_flip > flip_tolerance) {
+      fail_render(fmt::format("render: mean FLIP {:.4f}, tolerance {}", report.mean_flip, flip_tolerance));
+    }
+    if (report.silhouette_fraction > silhouette_limit) {
+      fail_render(
+          fmt::format("render: {:.3g} % of the surface's pixels are silhouettes, which are not compared; at "
+                      "most {:.3g} % may be: "
+                      "a larger --size leaves fewer",
+                      100 * report.silhouette_fraction, 100 * silhouette_limit));
+    } else if (pictures_.image().count() == 0 && !report.frames.empty()) {
+      fail_render(fmt::format("render: nothing in view to compare: no pixel of frame{} {} shows the model",
+                              report.frames.size() == 1 ? "" : "s", fmt::join(report.frames, ", ")));
     }
     // A pass stands where all its parts do.
     for (const auto& [name, part] : report.passes) {

@@ -1,28 +1,56 @@
 #include "pipeline/verify_pictures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/flip.h"
+#include "reference/backdrop.h"
+#include "reference/depth.h"
 
 namespace plisse::pipeline {
 namespace {
 
+using Eigen::Vector3d;
+using passes::RenderPass;
+
+// --- tolerances, and why ---------------------------------------------------------------------------------
 // Eight bits keep ½ of 255; interpolation and texture filtering of drivers keep about eight bits themselves.
 constexpr int image_tolerance = 4;  // of 255
 constexpr double image_fraction = 0.9975;
+// No textures but the ground map; where a shadow's edge is steep, a texel of it more or less.
+constexpr int backdrop_tolerance = 2;  // of 255
+// Beside what an edge within reach of a texel's middle leaves open: single precision, as for positions.
+constexpr double depth_tolerance = 1e-5;  // of the map's range
+// Triangles seen edge on come and go with the snapping of their corners.
+constexpr double depth_fraction = 0.999;
+// Half floats keep 2⁻¹¹, and are written three times over; a bilinear comparison beside a depth that is equal
+// but for rounding may go either way, of which softening leaves little.
+constexpr double ground_tolerance = 2e-3;  // of the light
+constexpr double ground_fraction = 0.9975;
 
-io::Image to_image(const std::vector<Eigen::Vector3d>& linear, const io::Image& backdrop,
-                   const std::vector<int>& triangle) {
-  io::Image image = backdrop;
-  for (std::size_t i = 0; i < linear.size(); ++i) {
-    if (triangle[i] < 0) continue;
-    for (int c = 0; c < 3; ++c) {
-      image.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(
-          std::lround(255 * reference::srgb_encode(std::clamp(linear[i][c], 0.0, 1.0))));
+Vector3d eigen(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+io::Image composed(const reference::Picture& picture, const std::vector<Vector3d>& behind) {
+  io::Image image{picture.width, picture.height, {}};
+  image.rgba.reserve(4 * behind.size());
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    const Vector3d linear = picture.colour[i] + (1 - picture.alpha[i]) * behind[i];
+    for (const double channel : linear) {
+      image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * reference::srgb_encode(channel))));
     }
-    image.rgba[4 * i + 3] = 255;
+    image.rgba.push_back(255);
   }
   return image;
+}
+
+void compare_depths(const std::vector<float>& gpu, const reference::DepthMap& expected, Tally& tally) {
+  for (std::size_t i = 0; i < gpu.size(); ++i) {
+    const auto depth = static_cast<double>(gpu[i]);
+    tally.add(std::max({expected.nearest[i] - depth, depth - expected.farthest[i], 0.0}));
+  }
 }
 
 }  // namespace
@@ -34,59 +62,104 @@ PictureComparison::PictureComparison(const LoadedScene& scene, const ReferenceSc
       render_(look(), scene.profile, scene.draw_parts(), scene.texture_levels(), shader_folder),
       target_(scene.settings.output.width, scene.settings.output.height, 1, gpu::Target::Format::srgb8),
       textures_(reference_textures(scene)),
-      image_(image_tolerance, "of 255", image_fraction) {}
+      image_(image_tolerance, "of 255", image_fraction),
+      backdrop_(backdrop_tolerance, "of 255", image_fraction),
+      shadow_map_(depth_tolerance, "of the range", depth_fraction),
+      ground_below_(depth_tolerance, "of the range", depth_fraction),
+      ground_(ground_tolerance, "of the light", ground_fraction) {}
 
 passes::Look PictureComparison::look() const {
   passes::Look result = scene_.look();
   result.wireframe = false;  // lines over the surface are no part of the pass
-  result.transparent = false;
   return result;
 }
 
-reference::Picture PictureComparison::reference_picture(const WaveSnapshot& snapshot,
-                                                        const passes::View& view) {
-  reference::Scene scene = picture_scene(reference_, snapshot, view, textures_);
-  if (look().shadows) {
-    reference::ShadowMap map;
-    const glm::dmat4 to_clip =
-        glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1) * render_.shadow_matrix();
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 4; ++r) map.matrix(r, c) = to_clip[c][r];
-    }
-    map.size = passes::RenderPass::shadow_size;
-    map.depth = render_.shadow_map();
-    map.texel_size = render_.shadow_texel();
-    scene.lighting.shadow = std::move(map);
-  }
-  return reference::render(scene, target_.width(), target_.height());
+io::Image PictureComparison::drawn(const passes::SurfaceBuffers& surface, const passes::View& view,
+                                   bool transparent) {
+  render_.set_transparent(transparent);
+  render_.draw(surface, view, target_);
+  return {target_.width(), target_.height(), target_.read_rgba8()};
+}
+
+reference::ShadowMap PictureComparison::compare_shadow_map(const passes::View& view,
+                                                           const reference::Scene& scene) {
+  const double radius = 1.02 * view.bounds_radius;
+  reference::ShadowMap map;
+  map.matrix = reference::parallel_view(eigen(view.bounds_centre), radius, -eigen(view.lights[0].direction));
+  map.size = RenderPass::shadow_size;
+  map.texel_size = 2 * radius / map.size;
+  map.depth = render_.shadow_map();
+  compare_depths(map.depth, reference::depth_map(scene.triangles, map.matrix, map.size), shadow_map_);
+  return map;
+}
+
+reference::GroundMap PictureComparison::compare_ground_map(const passes::View& view,
+                                                           const reference::Scene& scene,
+                                                           const reference::Ground& ground,
+                                                           const reference::ShadowMap& key) {
+  reference::ShadowMap below;
+  below.matrix = reference::view_from_below(ground, eigen(view.bounds_centre));
+  below.size = RenderPass::below_size;
+  below.depth = render_.map_from_below();
+  compare_depths(below.depth, reference::depth_map(scene.triangles, below.matrix, below.size), ground_below_);
+
+  const reference::GroundMap expected = reference::ground_map(ground, key, below);
+  reference::GroundMap map{RenderPass::ground_size, {}};
+  for (const glm::vec2& taken : render_.ground_map())
+    map.taken.push_back(Eigen::Vector2f(taken.x, taken.y).cast<double>());
+  for (std::size_t i = 0; i < map.taken.size(); ++i)
+    ground_.add((map.taken[i] - expected.taken.at(i)).cwiseAbs().maxCoeff());
+  return map;
 }
 
 void PictureComparison::compare(int frame, const passes::SurfaceBuffers& surface, const WaveSnapshot& gpu,
                                 const WaveSnapshot& chain) {
   const passes::View view = scene_.view(frame);
-  render_.draw(surface, view, target_);
-  const io::Image picture{target_.width(), target_.height(), target_.read_rgba8()};
-  const reference::Picture expected = reference_picture(gpu, view);
-  const io::Image image = to_image(expected.colour, picture, expected.triangle);
-  std::vector<std::uint8_t> mask(expected.triangle.size());
+  const io::Image coverage = drawn(surface, view, true), picture = drawn(surface, view, false);
+
+  reference::Scene scene = picture_scene(reference_, gpu, view, textures_);
+  std::vector<Vector3d> behind(coverage.rgba.size() / 4, eigen(look().background));
+  std::optional<reference::ShadowMap> key;
+  if (look().shadows || look().ground) key = compare_shadow_map(view, scene);
+  if (look().ground) {
+    const reference::Ground ground =
+        reference::ground_under(eigen(view.bounds_centre), view.bounds_radius, eigen(view.up), view.floor);
+    behind =
+        reference::backdrop(behind[0], scene.camera.view_projection, ground,
+                            compare_ground_map(view, scene, ground, *key), picture.width, picture.height);
+  }
+  if (!look().shadows) key.reset();
+  scene.lighting.shadow = key;
+
+  const reference::Picture expected = reference::render(scene, picture.width, picture.height);
+  const io::Image image = composed(expected, behind);
+  std::vector<std::uint8_t> mask(behind.size());
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    if (expected.triangle[i] < 0) continue;
-    ++covered_;
+    // Where either shows the surface: what only the shaders draw is as wrong as what they leave out.
+    const int alpha = coverage.rgba[4 * i + 3];
+    const bool seen = expected.triangle[i] >= 0 || alpha > 0;
+    covered_ += seen ? 1 : 0;
     if (expected.silhouette[i]) {
-      ++silhouettes_;
+      silhouettes_ += seen ? 1 : 0;
+      continue;
+    }
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      largest = std::max(largest, std::abs(double{1} * image.rgba[4 * i + c] - picture.rgba[4 * i + c]));
+    }
+    if (!seen) {
+      backdrop_.add(largest);
       continue;
     }
     mask[i] = 1;
-    int largest = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      largest = std::max(largest, std::abs(int{image.rgba[4 * i + c]} - int{picture.rgba[4 * i + c]}));
-    }
-    image_.add(largest);
+    image_.add(std::max(largest, std::abs(alpha - 255 * expected.alpha[i])));
   }
   flip_ = std::max(flip_, io::flip(image, picture, mask).mean);
-  const reference::Picture whole = reference_picture(chain, view);
-  chain_flip_ =
-      std::max(chain_flip_, io::flip(to_image(whole.colour, picture, whole.triangle), picture, mask).mean);
+
+  scene = picture_scene(reference_, chain, view, textures_);
+  scene.lighting.shadow = key;
+  const reference::Picture whole = reference::render(scene, picture.width, picture.height);
+  chain_flip_ = std::max(chain_flip_, io::flip(composed(whole, behind), picture, mask).mean);
 }
 
 double PictureComparison::silhouette_fraction() const {
@@ -95,6 +168,12 @@ double PictureComparison::silhouette_fraction() const {
 
 void PictureComparison::report(std::map<std::string, PassComparison>& passes) const {
   passes["render"] = image_.comparison();
+  passes["render.backdrop"] = backdrop_.comparison();
+  if (shadow_map_.count() > 0) passes["render.shadow_map"] = shadow_map_.comparison();
+  if (ground_.count() > 0) {
+    passes["render.ground_below"] = ground_below_.comparison();
+    passes["render.ground_map"] = ground_.comparison();
+  }
 }
 
 }  // namespace plisse::pipeline

@@ -265,6 +265,17 @@ TEST_F(Program, VerifyReports) {
   EXPECT_EQ(report["interrupted"], false);
 }
 
+// A check that compared nothing does not hold.
+TEST_F(Program, VerifyNeedsSomethingToCompare) {
+  const Outcome away =
+      plisse(with_tiny({"verify", square, "--frames", "40", "--camera", "eye=0,0.5,3;target=0,0.5,9"}));
+  EXPECT_EQ(away.code, 1) << away.out;
+  EXPECT_THAT(away.out, HasSubstr("nothing in view to compare"));
+  const Outcome dots = plisse({"verify", square, "--frames", "40", "--size", "4x4"});
+  EXPECT_EQ(dots.code, 1) << dots.out;
+  EXPECT_THAT(dots.out, AllOf(HasSubstr("silhouettes"), HasSubstr("--size")));
+}
+
 TEST(Reports, Info) {
   const Outcome outcome = plisse({"info", square, "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -1,6 +1,7 @@
 // Verify must be able to fail: with one number of a shader altered, it has to notice and name the pass.
 #include <gmock/gmock.h>
 
+#include "support/gltf.h"
 #include "system/plisse.h"
 
 namespace plisse::test {
@@ -8,9 +9,24 @@ namespace {
 
 struct Mutation {
   std::string name, file, from, to, pass;
+  std::string part = pass;  // of the pass: what has to notice
 };
 void PrintTo(const Mutation& mutation, std::ostream* out) {
   *out << mutation.name;
+}
+
+// The sleeve with a shoulder that lets light through and a cuff that its mask cuts away.
+std::string sleeve_with_holes(const TemporaryFolder& folder) {
+  altered_glb(asset("sleeve.glb"), folder / "sleeve.glb", [](nlohmann::json& gltf) {
+    auto& seam = gltf["materials"][0];
+    seam["alphaMode"] = "BLEND";
+    seam["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.4;
+    auto& cuff = gltf["materials"][2];
+    cuff["alphaMode"] = "MASK";
+    cuff["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.3;
+  });
+  std::filesystem::copy(asset("sleeve.toml"), folder / "sleeve.toml");
+  return (folder / "sleeve.toml").string();
 }
 
 class Mutations : public Program, public ::testing::WithParamInterface<Mutation> {};
@@ -30,7 +46,7 @@ TEST_P(Mutations, AreNoticed) {
     write_text(path, text);
   }
   const std::string report = (folder / "report.json").string();
-  const Outcome outcome = plisse({"verify", asset("sleeve.toml").string(), "--size", "96x80", "--frames",
+  const Outcome outcome = plisse({"verify", sleeve_with_holes(folder), "--size", "96x80", "--frames",
                                   "10,40,60", "--shaders", (folder / "shaders").string(), "--json", report});
   const auto json = nlohmann::json::parse(read_text(report));
   if (mutation.file.empty()) {
@@ -44,6 +60,7 @@ TEST_P(Mutations, AreNoticed) {
   for (const std::string pass : {"skin", "crush", "relax", "render"}) {
     EXPECT_EQ(json["passes"][pass]["ok"], pass != mutation.pass) << pass;
   }
+  EXPECT_EQ(json["passes"][mutation.part]["ok"], false);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -66,7 +83,22 @@ INSTANTIATE_TEST_SUITE_P(
         Mutation{"RenderSlope", "render.vert", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},
         Mutation{"RenderPhase", "render.vert", "(0.5 / pi)", "(0.55 / pi)", "render"},
         Mutation{"RenderLight", "common/shading.glsl", "0.6 + 0.4 *", "0.6 + 0.6 *", "render"},
-        Mutation{"RenderShoulder", "common/shading.glsl", "0.04 + 0.96", "0.24 + 0.96", "render"}),
+        Mutation{"RenderShoulder", "common/shading.glsl", "0.04 + 0.96", "0.24 + 0.96", "render"},
+        Mutation{"RenderMask", "render.frag", "if (albedo.a < alpha_cutoff) discard;", "", "render"},
+        Mutation{"RenderBlending", "render.frag", "if (has_alpha) alpha = albedo.a;", "", "render"},
+        Mutation{"DepthMap", "depth.vert", "to_clip * vec4(", "to_clip * vec4(0.99 * ", "render",
+                 "render.shadow_map"},
+        Mutation{"GroundLight", "ground.comp", "vec4(1.0 - lit", "vec4(0.9 - 0.9 * lit", "render",
+                 "render.ground_map"},
+        Mutation{"GroundContact", "ground.comp", "exp(-height", "exp(-1.2 * height", "render",
+                 "render.ground_map"},
+        Mutation{"GroundBlur", "ground.comp", "exp(-0.5", "exp(-0.6", "render", "render.ground_map"},
+        Mutation{"BackdropVignette", "backdrop.frag", "1.06 - 0.45", "1.06 - 0.65", "render",
+                 "render.backdrop"},
+        Mutation{"BackdropShadow", "backdrop.frag", "1.0 - 0.5 * taken.x", "1.0 - 0.8 * taken.x", "render",
+                 "render.backdrop"},
+        Mutation{"BackdropPlace", "backdrop.vert", "/ map_origin.w,", "/ map_origin.w + 0.05,", "render",
+                 "render.backdrop"}),
     [](const auto& mutation) { return mutation.param.name; });
 
 }  // namespace
