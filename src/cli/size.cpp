@@ -1,19 +1,23 @@
-// plisse size: how fine the mesh of a fabric must be.
+// plisse size: how fine the mesh of a fabric must be; for panels, the meshes.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/units.h"
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/size_options.h"
 #include "config/suggest.h"
+#include "pipeline/size.h"
 #include "sizing/fabric.h"
 #include "sizing/resolution.h"
 
@@ -24,6 +28,13 @@ using nlohmann::ordered_json;
 
 struct Arguments {
   explicit Arguments(CLI::App& app) : common(app) {
+    app.add_option("panels", panels,
+                   described("A panel file (docs/sizing.md): outlines, fabrics, features; its meshes and "
+                             "sizing maps are written"))
+        ->type_name("PANEL.toml");
+    app.add_option("-o,--output", folder,
+                   "Where the files of a panel file go; by default a folder of its name")
+        ->type_name("DIR");
     app.add_option(
            "--fabric", fabric,
            described("A fabric by name, or bending stiffness and Young's modulus, units allowed: "
@@ -36,7 +47,7 @@ struct Arguments {
   }
 
   CommonArguments common;
-  std::string fabric, range;
+  std::string panels, folder, fabric, range;
   bool list = false;
 };
 
@@ -96,6 +107,106 @@ int size_fabric(const Arguments& arguments, const sizing::FabricRange& range,
   return 0;
 }
 
+ordered_json to_json(const SizeReport::Panel& panel) {
+  ordered_json features = ordered_json::array();
+  for (const SizeReport::Feature& feature : panel.features) {
+    features.push_back(
+        {{"name", feature.name}, {"rule", feature.rule}, {"resolution_mm", 1e3 * feature.resolution}});
+  }
+  return {{"name", panel.name},
+          {"resolution_mm",
+           {{"weft", 1e3 * panel.fabric_resolution.x}, {"warp", 1e3 * panel.fabric_resolution.y}}},
+          {"features", features},
+          {"vertices", panel.vertices},
+          {"triangles", panel.triangles},
+          {"expected_vertices", panel.quality.expected_vertices},
+          {"uniform_vertices", panel.uniform_vertices},
+          {"edges_within_half_and_double", panel.quality.edges_within},
+          {"min_angle_deg", panel.quality.least_angle},
+          {"exempt_triangles", panel.quality.exempt},
+          {"mean_edge", panel.quality.mean_edge},
+          {"edge_length_ratio", panel.quality.length_ratio},
+          {"lost_m", panel.quality.lost},
+          {"map_s", panel.seconds.map},
+          {"sample_s", panel.seconds.sample},
+          {"triangulate_s", panel.seconds.triangulate},
+          {"improve_s", panel.seconds.improve}};
+}
+
+// The panels one by one, and over all of them the keys that docs/contract.md promises.
+ordered_json to_json(const SizeReport& report) {
+  ordered_json panels = ordered_json::array(), features = ordered_json::array(),
+               outputs = ordered_json::array();
+  std::size_t vertices = 0, triangles = 0;
+  double expected = 0, within = 1, angle = 180, map = 0, sample = 0, triangulate = 0;
+  for (const SizeReport::Panel& panel : report.panels) {
+    panels.push_back(to_json(panel));
+    for (const ordered_json& feature : panels.back()["features"]) features.push_back(feature);
+    vertices += panel.vertices;
+    triangles += panel.triangles;
+    expected += panel.quality.expected_vertices;
+    within = std::min(within, panel.quality.edges_within);
+    angle = std::min(angle, panel.quality.least_angle);
+    map += panel.seconds.map;
+    sample += panel.seconds.sample;
+    triangulate += panel.seconds.triangulate + panel.seconds.improve;
+  }
+  for (const auto& file : report.files)
+    outputs.push_back({{"path", file.string()}, {"kind", file.extension().string()}});
+  return {{"features", features},
+          {"vertices", vertices},
+          {"triangles", triangles},
+          {"expected_vertices", expected},
+          {"edges_within_half_and_double", within},
+          {"min_angle_deg", angle},
+          {"map_s", map},
+          {"sample_s", sample},
+          {"triangulate_s", triangulate},
+          {"panels", panels},
+          {"outputs", outputs}};
+}
+
+std::string table(const SizeReport& report) {
+  std::string text;
+  for (const SizeReport::Panel& panel : report.panels) {
+    text += fmt::format("{}{}: {} vertices, {} triangles; {:.0f} with {:.3g} mm everywhere\n",
+                        text.empty() ? "" : "\n", panel.name, panel.vertices, panel.triangles,
+                        panel.uniform_vertices, 1e3 * panel.finest);
+    const glm::dvec2 r = 1e3 * panel.fabric_resolution;
+    text += padded("  fabric", 28) + (r.x == r.y ? fmt::format("{:.3f} mm\n", r.x)
+                                                 : fmt::format("{:.3f} mm weft, {:.3f} mm warp\n", r.x, r.y));
+    for (const SizeReport::Feature& feature : panel.features)
+      text += padded(fmt::format("  {} ({})", feature.name, feature.rule), 28) +
+              fmt::format("{:.3f} mm\n", 1e3 * feature.resolution);
+    text += fmt::format(
+        "  edges within half and double {:.2f} %, least angle {:.1f} degrees, {:.3f} of the vertices "
+        "expected\n",
+        100 * panel.quality.edges_within, panel.quality.least_angle,
+        static_cast<double>(panel.vertices) / panel.quality.expected_vertices);
+  }
+  return text;
+}
+
+int mesh_panels(const Arguments& arguments) {
+  SizeRequest request{arguments.panels, arguments.folder};
+  if (arguments.folder.empty()) request.folder = std::filesystem::path(arguments.panels).stem();
+  const SizeReport report = size_panels(request);
+  if (arguments.common.tables_wanted()) write_stdout(table(report));
+  write_report(to_json(report), arguments.common.json());
+  // What the mesher promises (docs/sizing.md); an outline smaller than its own mesh size cannot hold it.
+  bool holds = true;
+  for (const SizeReport::Panel& panel : report.panels) {
+    if (panel.quality.lost == 0 && panel.quality.edges_within >= 0.99 && panel.quality.least_angle >= 25)
+      continue;
+    log::warn(fmt::format(
+        "panel '{}': the mesh is worse than promised: {:.1f} % of edges within half and double, least angle "
+        "{:.1f} degrees, {:.3g} m of lines lost",
+        panel.name, 100 * panel.quality.edges_within, panel.quality.least_angle, panel.quality.lost));
+    holds = false;
+  }
+  return holds ? 0 : static_cast<int>(ExitCode::check_failed);
+}
+
 int run_size(Arguments& arguments) {
   arguments.common.apply();
   const sizing::FabricRange range = range_option(arguments.range);
@@ -104,16 +215,19 @@ int run_size(Arguments& arguments) {
     write_stdout(fabric_list(law));
     return 0;
   }
-  if (arguments.fabric.empty()) {
-    throw Error(ExitCode::bad_input, "plisse size: give --fabric B,E; see 'plisse size --help'");
+  if (arguments.panels.empty() == arguments.fabric.empty()) {
+    throw Error(ExitCode::bad_input,
+                "plisse size: give --fabric B,E or a PANEL.toml, one of them; see 'plisse size --help'");
   }
+  if (!arguments.panels.empty()) return mesh_panels(arguments);
   return size_fabric(arguments, range, law);
 }
 
 }  // namespace
 
 Command add_size(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("size", "Tell how fine the mesh of a fabric must be");
+  CLI::App* app =
+      program.add_subcommand("size", "Tell how fine the mesh of a fabric must be, and mesh panels so");
   auto arguments = std::make_shared<Arguments>(*app);
   return {app, [arguments] { return run_size(*arguments); }};
 }

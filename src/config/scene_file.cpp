@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "config/complaints.h"
 #include "config/keys.h"
 #include "config/suggest.h"
 
@@ -18,38 +19,9 @@ namespace plisse {
 namespace {
 
 namespace fs = std::filesystem;
+using config::Complaints;
 using config::Key;
 using config::Problem;
-
-// Gathers what is wrong, so that one look at the output mends the whole file.
-class Complaints {
- public:
-  explicit Complaints(const fs::path& file) : file_(file.string()) {}
-
-  void add(const toml::source_position& at, const std::string& text) {
-    const auto line = std::max<toml::source_index>(at.line, 1),
-               column = std::max<toml::source_index>(at.column, 1);
-    lines_.push_back({line, column, fmt::format("{}:{}:{}: {}", file_, line, column, text)});
-  }
-
-  void throw_if_any() {
-    if (lines_.empty()) return;
-    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    });
-    std::string text;
-    for (const Line& line : lines_) text += (text.empty() ? "" : "\n") + line.text;
-    throw Error(ExitCode::bad_input, text);
-  }
-
- private:
-  struct Line {
-    toml::source_index line, column;
-    std::string text;
-  };
-  std::string file_;
-  std::vector<Line> lines_;
-};
 
 std::vector<std::string> table_names() {
   std::vector<std::string> names;

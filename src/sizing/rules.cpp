@@ -82,6 +82,12 @@ double Transition::at(double distance) const {
   return source * (1 + std::pow(distance / length, exponent));
 }
 
+double Transition::reach(double resolution) const {
+  if (resolution <= source || length <= 0) return 0;
+  if (form == Form::literal) return std::pow((resolution - source) / millimetre, 1 / exponent) * millimetre;
+  return length * std::pow(resolution / source - 1, 1 / exponent);
+}
+
 Transition transition(double source, const Stiffness& stiffness, const TransitionCause& cause,
                       Transition::Form form) {
   check("source resolution", source, source > 0, "above 0 m");

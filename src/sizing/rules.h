@@ -67,6 +67,8 @@ struct Transition {
 
   // Resolution at distance x ≥ 0, metres; +∞ where it has outgrown every number.
   double at(double distance) const;
+  // The distance at which r has grown to `resolution`; 0 where it is that at the source already.
+  double reach(double resolution) const;
   bool operator==(const Transition&) const = default;
 };
 

@@ -1,0 +1,23 @@
+// Panel files: pattern pieces, their fabric and what is done along their lines, in TOML (docs/sizing.md).
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "sizing/panel.h"
+
+namespace plisse {
+
+struct PanelFile {
+  std::vector<sizing::Panel> panels;
+  sizing::SizingOptions options;
+  sizing::FabricRange range;
+};
+
+// Throw Error(bad_input) with file:line:column for all that is wrong at once: syntax, unknown keys and words
+// (with the nearest known one), values out of range.
+PanelFile load_panels(const std::filesystem::path& file);
+PanelFile parse_panels(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace plisse

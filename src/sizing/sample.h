@@ -1,0 +1,40 @@
+// Vertices for a panel: along its lines, then Poisson-disk samples between them (D. Zhang et al., SIGGRAPH
+// 2025, 4.3).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "sizing/domain.h"
+#include "sizing/size_map.h"
+
+namespace plisse::sizing {
+
+// Vertices per ∫dA/r² of a mesh of equilateral triangles with edges r: two triangles a vertex, √3/4 r² each.
+inline constexpr double vertex_density = 1.1547005383792515;  // 2/√3
+
+// The least distance of two samples over r that gives as many: random packings of discs jam at a covered
+// share of 0.547 (J. Feder 1980), so at 0.547 · 4/π samples a squared least distance; 2/√3 a squared edge
+// makes this √(0.6965 √3/2).
+inline constexpr double least_distance = 0.7766;
+
+struct Samples {
+  std::vector<glm::dvec2> points;  // working coordinates; those on lines first
+  std::vector<std::vector<std::uint32_t>>
+      lines;  // by line of the domain: its samples in order; closed: first again last
+  std::size_t on_lines = 0;
+};
+
+// Lines are divided evenly by ∫ds/r; ends stay.
+Samples sample_lines(const Domain& domain, const SizeMap& map);
+
+// Adds the interior: R. Bridson's sampling ("Fast Poisson Disk Sampling in Arbitrary Dimensions", 2007) with
+// r from the map. The same seed gives the same points.
+void sample_interior(const Domain& domain, const SizeMap& map, std::uint32_t seed, Samples& samples);
+
+// What an ideal mesh of edges r would have: Euler's formula with equilateral triangles gives
+// (2/√3) ∫dA/r² + ½ ∮ds/r + 1 − holes, and every vertex on the lines beside a fold besides.
+double expected_vertices(const Domain& domain, const SizeMap& map, const Samples& samples);
+
+}  // namespace plisse::sizing
