@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <string>
@@ -12,9 +13,11 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/size_options.h"
 #include "io/import.h"
 #include "pipeline.h"
 #include "scene/animation.h"
+#include "sizing/mesh_fit.h"
 
 namespace plisse::cli {
 namespace {
@@ -27,10 +30,17 @@ constexpr double default_frames_per_second = 24;
 struct Arguments {
   explicit Arguments(CLI::App& app)
       : scene(app, [](const std::string& option) { return option == "--units" || option == "--up"; }),
-        common(app) {}
+        common(app) {
+    app.add_option(
+           "--fabric", fabric,
+           described("Tell where the meshes are finer or coarser than this fabric needs: B,E or a name, as "
+                     "plisse size has it"))
+        ->type_name("B,E|NAME");
+  }
 
   SceneArguments scene;
   CommonArguments common;
+  std::string fabric;
 };
 
 int frame_count(double duration, double frames_per_second) {
@@ -140,6 +150,29 @@ ordered_json to_json(const io::Model& model, const Animation& animation) {
           {"wavelength_m", default_wavelength(surface)}};
 }
 
+// How each part compares with the resolution of a fabric, in the rest pose.
+ordered_json fits_of(const Surface& surface, double resolution) {
+  ordered_json fits = ordered_json::array();
+  for (const Part& part : surface.parts) {
+    std::vector<std::array<std::uint32_t, 3>> triangles(part.triangle_count);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = surface.triangles[3 * (part.first_triangle + t) + i];
+        triangles[t][i] = surface.render_vertices[vertex].welded;
+      }
+    }
+    const sizing::MeshFit fit = sizing::fit_of(surface.rest, triangles, resolution);
+    fits.push_back({{"name", part.mesh},
+                    {"median_edge_mm", 1e3 * fit.median_edge},
+                    {"finer", fit.finer},
+                    {"coarser", fit.coarser},
+                    {"vertices_needed", fit.vertices_needed},
+                    {"coarse_low", to_json(fit.coarse_low)},
+                    {"coarse_high", to_json(fit.coarse_high)}});
+  }
+  return {{"resolution_mm", 1e3 * resolution}, {"meshes", fits}};
+}
+
 // --- the table
 // -------------------------------------------------------------------------------------------------
 
@@ -216,6 +249,24 @@ std::string table(const ordered_json& info) {
     return padded(texture["name"].get<std::string>(), width) +
            fmt::format("{} × {}", texture["width"].get<int>(), texture["height"].get<int>());
   });
+  if (info.contains("fabric")) {
+    const ordered_json& fabric = info["fabric"];
+    text += fmt::format("\nfor a fabric that needs {:.3f} mm\n", fabric["resolution_mm"].get<double>());
+    for (const ordered_json& fit : fabric["meshes"]) {
+      text += padded("  " + fit["name"].get<std::string>(), name_width(fabric["meshes"]) + 2) +
+              fmt::format(
+                  "edges {:.3g} mm; {:.0f} % of it finer than half, {:.0f} % coarser than double; {:.0f} "
+                  "vertices would do\n",
+                  fit["median_edge_mm"].get<double>(), 100 * fit["finer"].get<double>(),
+                  100 * fit["coarser"].get<double>(), fit["vertices_needed"].get<double>());
+      if (fit["coarser"].get<double>() > 0) {
+        const auto from = fit["coarse_low"].get<std::vector<double>>(),
+                   to = fit["coarse_high"].get<std::vector<double>>();
+        text += fmt::format("    coarse between ({:.4g}, {:.4g}, {:.4g}) and ({:.4g}, {:.4g}, {:.4g}) m\n",
+                            from[0], from[1], from[2], to[0], to[1], to[2]);
+      }
+    }
+  }
   return text;
 }
 
@@ -227,7 +278,13 @@ int run_info(Arguments& arguments) {
   options.up = scene.model.up;
   const io::Model model = io::import_model(scene.model.path, options);
   const Animation animation(model, {});
-  const ordered_json report = to_json(model, animation);
+  ordered_json report = to_json(model, animation);
+  if (!arguments.fabric.empty()) {
+    const sizing::Fabric fabric = fabric_option(arguments.fabric);
+    const sizing::ResolutionLaw law = sizing::resolution_law();
+    report["fabric"] = fits_of(animation.surface(), std::min(fabric_resolution(law, fabric.weft),
+                                                             fabric_resolution(law, fabric.warp)));
+  }
   if (arguments.common.tables_wanted()) write_stdout(table(report));
   write_report(report, arguments.common.json());
   return 0;

@@ -87,12 +87,12 @@ class Preparation {
       line = without_repeats(std::move(line));
       if (line.points.size() < 3)
         return problem(fmt::format("{} has {} points; three at least", name, line.points.size()));
+      if (const auto where = self_crossing(line))
+        return problem(fmt::format("{} crosses itself at {}", name, place(*where)));
       const double perimeter = line.length();
       // Below this an outline is a line there and back, to the last digits of its coordinates.
       if (!(std::abs(signed_area(line)) > 1e-9 * perimeter * perimeter))
         return problem(name + " has no area");
-      if (const auto where = self_crossing(line))
-        return problem(fmt::format("{} crosses itself at {}", name, place(*where)));
       for (std::size_t i = 0; i < domain_.boundary.size(); ++i) {
         if (!contains(domain_.boundary[i], line.points[0]) == (i == 0))
           return problem(name + (i == 0 ? " lies outside the outline" : " lies inside another hole"));

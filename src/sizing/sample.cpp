@@ -42,8 +42,11 @@ class Buckets {
   // Whether a disc there keeps its distance from all others: |pq|² ≥ κ² r_p r_q.
   bool fits(const dvec2& point, double size) const {
     const std::size_t own = level_of(size);
-    // Sizes grow slowly over a place, but features may meet: one level finer and every coarser one.
-    for (std::size_t l = own == 0 ? 0 : own - 1; l < std::min(levels_.size(), own + 3); ++l) {
+    // Its own level first, where most conflicts are. Sizes grow slowly over a place, but features may meet:
+    // one level finer and two coarser as well.
+    for (const int step : {0, 1, -1, 2}) {
+      const std::size_t l = own + static_cast<std::size_t>(step);
+      if (l >= levels_.size()) continue;  // −1 below 0 wraps round to here, too
       const Level& level = levels_[l];
       const double reach =
           least_distance * std::sqrt(size * std::min(2 * level.cell, greatest_in_reach * size));

@@ -55,7 +55,7 @@ class SizeMap {
   float bilinear(const std::vector<float>& values, const glm::dvec2& working) const;
 
   const Domain& domain_;
-  const SizingOptions& options_;
+  SizingOptions options_;
   glm::dmat2 fabric_axes_{1};  // rows: weft, warp
   glm::dvec2 origin_{0};
   double step_ = 0, least_ = 0;

@@ -23,7 +23,9 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
     EXPECT_EQ(panel.quality.lost, 0);
     EXPECT_NEAR(static_cast<double>(panel.vertices) / panel.quality.expected_vertices, 1, 0.15);
     EXPECT_LT(static_cast<double>(panel.vertices), panel.uniform_vertices);
-    if (panel.name == "two-way") EXPECT_NEAR(panel.quality.length_ratio, 2.753, 0.15 * 2.753);
+    if (panel.name == "two-way") {
+      EXPECT_NEAR(panel.quality.length_ratio, 2.753, 0.15 * 2.753);
+    }
 
     // The files hold what the report counts.
     const io::ObjFile obj = io::read_obj_file(folder / (panel.name + ".obj"));
