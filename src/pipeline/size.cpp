@@ -120,13 +120,15 @@ SizeReport size_panels(const SizeRequest& request) {
     report.panels.push_back(figures(panel, *sized));
 
     const SizeScale scale(*sized);
+    io::PngOptions small;
+    small.level = 9;  // once a panel, and smooth maps pack well
     const auto path = [&](const char* suffix) {
       return report.files.emplace_back(request.folder / (panel.name + suffix));
     };
     write_whole_file(path(".obj"), obj_text(panel, *sized));
     write_whole_file(path(".ply"), ply_text(*sized, scale));
-    io::write_png(path("_map.png"), draw_size_map(panel, *sized, scale));
-    io::write_png(path("_mesh.png"), draw_size_mesh(panel, *sized, scale));
+    io::write_png(path("_map.png"), draw_size_map(panel, *sized, scale), small);
+    io::write_png(path("_mesh.png"), draw_size_mesh(panel, *sized, scale), small);
   }
   return report;
 }

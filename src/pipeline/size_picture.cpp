@@ -126,7 +126,7 @@ class View {
   static constexpr int margin = 48, legend = 210, caption = 64;
 
  private:
-  static constexpr double largest = 1200;
+  static constexpr double largest = 900;
   double scale_ = 1;
   int width_ = 0, height_ = 0;
   dvec2 shift_{0};
