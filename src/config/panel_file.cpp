@@ -152,7 +152,8 @@ class PanelReader {
     TableReader reader(root, "the file", metres, complaints_);
     reader.node("units");
     sizing::Fabric fabric;
-    const bool common = read_fabric(reader, fabric);
+    read_fabric(reader, fabric);
+    const bool common = root.contains("fabric");  // a wrong one is complained of once
     if (const toml::node* sizing = reader.node("sizing")) options(*sizing, metres);
     const toml::node* panels = reader.needed("panel", "tables [[panel]]");
     if (panels && panels->is_array_of_tables()) {

@@ -170,6 +170,7 @@ class PathReader {
         lines_.back().closed = true;
         return;
       default:
+        --at_;
         fail("no command of path data; there are M L H V C S Q T A Z");
     }
   }
