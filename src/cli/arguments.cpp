@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <system_error>
 
 #include "base/error.h"
@@ -50,6 +51,8 @@ void CommonArguments::apply() {
   const int threads = whole_number("--threads", threads_, 1, 1024);
   thread_limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                         static_cast<std::size_t>(threads));
+  // llvmpipe starts threads of its own when the context is made; 0 lets it rasterise in the caller's.
+  setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 0);
 }
 
 SceneArguments::SceneArguments(CLI::App& app, const Wanted& wanted) : app_(app) {

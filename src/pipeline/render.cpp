@@ -1,7 +1,9 @@
 // The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads
 // that encode and write while the next one is drawn.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -27,6 +29,13 @@ namespace {
 double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+// Encoding a frame takes about as long as llvmpipe takes to draw one on all cores: four threads keep up with
+// a GPU.
+int writer_threads() {
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(std::min<std::size_t>(allowed, 4));
 }
 
 // Encodes and writes frames on threads of its own, a few at a time: more would only hold memory.
@@ -136,7 +145,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   int last_picture_step = 0;
 
   {
-    FrameWriter writer(2);
+    FrameWriter writer(writer_threads());
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (interrupted()) {
         report.interrupted = true;
