@@ -51,15 +51,15 @@ void main() {
     float squares = sigma1 * sigma1 + sigma2 * sigma2;
     float g = squares > 0.0 ? (sigma1 - sigma2) * (sigma1 + sigma2) / squares : 0.0;
 
-    // k is taken whole the first time, then follows with the certainty of the new direction (contract, "Direction").
-    vec2 k = state(v).xy;
-    bool has_direction = dot(k, k) > 0.0;
-    if (!has_direction && g > isotropy) {
-        k = v2;
-        has_direction = true;
-    } else if (has_direction) {
-        vec2 toward = dot(k, v2) < 0.0 ? -v2 : v2;
+    // k is taken whole the first time, and again by a vertex that was idle; then follows with the certainty of the new direction (contract, "Direction").
+    float status = phase(v).y;
+    vec2 k = state(v).xy, toward = dot(k, v2) < 0.0 ? -v2 : v2;
+    bool has_direction = dot(k, k) > 0.0 && (always_set || status != idle);
+    if (has_direction) {
         k = normalize(k + min(g / isotropy, 1.0) * (toward - k));
+    } else if (g > isotropy) {
+        k = toward;
+        has_direction = true;
     }
 
     vec2 u1 = sigma1 > 0.0 ? vec2(dot(m0, v1), dot(m1, v1)) / sigma1 : v1;
@@ -71,7 +71,6 @@ void main() {
     float weight = clamp((h_in_W - 0.0125) / 0.0625, 0.0, 1.0);
     vec2 wavenumber = direction / W;
 
-    float status = phase(v).y;
     if (always_set) {
         status = set;
     } else {

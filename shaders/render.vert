@@ -62,7 +62,8 @@ void main() {
         wavenumbers[i] = its.x * t[i] + its.y * cross(n[i], t[i]);
         h[i] = its.xy == vec2(0.0) ? 0.0 : its.z;  // a wave without a direction is not drawn
         // Wrapped before it is rounded, and the distance kept local: large phases would lose their fraction.
-        tau[i] = dot(wavenumbers[i], x - p[i]) + (phase(id[i]).x + constant(id[i]).z) * (0.5 / pi);
+        tau[i] = dot(wavenumbers[i], x - p[i]) + phase(id[i]).x * (0.5 / pi) +
+                 dot(state(id[i]).xy, constant(id[i]).zw);
     }
     vec3 squares = vec3(dot(wavenumbers[0], wavenumbers[0]), dot(wavenumbers[1], wavenumbers[1]),
                         dot(wavenumbers[2], wavenumbers[2]));

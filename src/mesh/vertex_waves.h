@@ -1,15 +1,18 @@
 // What the wrinkles of each welded vertex are like, whatever the pose.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace plisse {
 
 // All of length V.
 struct VertexWaves {
-  std::vector<double> wavelength;   // W, metres of the rest pose, > 0
-  std::vector<double> mask;         // 0…1 times the strength; multiplies h
-  std::vector<double> phase_noise;  // radians, added when the wave is drawn
+  std::vector<double> wavelength;  // W, metres of the rest pose, > 0
+  std::vector<double> mask;        // 0…1 times the strength; multiplies h
+  // D, in wavelengths, a vector of the rest pose: k·D turns are added to the phase when the wave is drawn. A
+  // vector, since k's sign is any: turned over, the phase counts the other way, and so must what is added.
+  std::vector<glm::dvec3> wander;
 };
 
 }  // namespace plisse

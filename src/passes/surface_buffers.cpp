@@ -81,8 +81,10 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
       const glm::dvec2 edge = rest.edge[i], row = inverse * edge;  // metres, 1/metres
       rows[i] = glm::vec4(row * units.metres, edge / units.metres);
     }
+    const glm::dvec3 wander = vertex_waves.wander[v];
     return glm::vec4(vertex_waves.wavelength[v] / units.metres, vertex_waves.mask[v],
-                     vertex_waves.phase_noise[v], 0);
+                     glm::dot(wander, rest.tangent[v]),
+                     glm::dot(wander, glm::cross(rest.normal[v], rest.tangent[v])));
   }));
   rest_rows = gpu::Buffer(rows);
 

@@ -303,7 +303,7 @@ Hash LoadedScene::state_hash(int step) {
 std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
   Hash hash = state_hash(step_of_frame(frame));
   hash.add(driver.hex());
-  add_items(hash, waves.phase_noise);
+  add_items(hash, waves.wander);
   add_items(hash, profile.f);
   add_items(hash, profile.derivative);
   for (const auto& vertex : surface().render_vertices) {

@@ -1,5 +1,7 @@
 #include "pipeline/reference_scene.h"
 
+#include <numbers>
+
 #include "base/colour.h"
 #include "reference/functions.h"
 
@@ -62,7 +64,9 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   }
   wavelength = vector(scene.waves.wavelength, 1 / units.metres);
   mask = vector(scene.waves.mask);
-  phase_noise = vector(scene.waves.phase_noise);
+  wander.resize(2, static_cast<Index>(count));
+  for (Index v = 0; v < wander.cols(); ++v)
+    wander.col(v) = rest_frames.basis(v).transpose() * eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
   initial_phases.resize(static_cast<Index>(count));
   for (std::size_t v = 0; v < count; ++v) {
     initial_phases[static_cast<Index>(v)] = static_cast<double>(
@@ -200,7 +204,9 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
         triangle.waves.wavenumbers.col(c) = field.wavenumbers.col(v);
         // A wave without a direction is not drawn.
         triangle.waves.heights[c] = field.wavenumbers.col(v).isZero(0) ? 0 : snapshot.heights[v];
-        triangle.waves.phases[c] = snapshot.phases[v] + scene.phase_noise[v];
+        triangle.waves.phases[c] =
+            snapshot.phases[v] +
+            2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
         triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
         // The rest normal's components ride in the posed frame.
         const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
@@ -242,17 +248,23 @@ ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
 void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
                           const std::vector<Eigen::Vector2d>& first_directions) {
   first_directions_ = first_directions;
-  if (last_.empty() || last_.front() != pose) advance(step, pose, with_crush);
+  const double share = scene_.scene.lead_at(step);
+  if (!last_ || *last_ != pose) {
+    now_.positions = scene_.positions(pose);
+    now_.frames = scene_.frames(pose, now_.positions);
+    last_ = pose;
+  }
+  if (with_crush && (!crushed_ || *crushed_ != pose)) {
+    crush_and_relax(share > 0);
+    crushed_ = pose;
+  }
+  if (share > 0) lead(reference::Status::set, share);
   if (scene_.scene.remembers_at(step)) remembered_ = now_;
 }
 
-void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
-  last_ = {pose};
-  now_.positions = scene_.positions(pose);
-  now_.frames = scene_.frames(pose, now_.positions);
-  if (!with_crush) return;
+void ReferenceChain::crush_and_relax(bool leads) {
   auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
-                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states);
+                                        scene_.wavelength, scene_.mask, scene_.crush, now_.states);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
     if (now_.states[v].direction.isZero(0) && crushed[v].direction.dot(first_directions_[v]) < 0) {
@@ -266,13 +278,11 @@ void ReferenceChain::advance(int step, const Pose& pose, bool with_crush) {
     now_.compression[i] = 1 - crushed[v].r;
     now_.states[v] = {crushed[v].direction, crushed[v].status};
   }
-  const double share = scene_.scene.lead_at(step);
-  if (share > 0) lead(reference::Status::fresh, 1);
+  if (leads) lead(reference::Status::fresh, 1);
   reference::WaveField field = now_.field();
   reference::relax(scene_.topology, field, scene_.relax);
   now_.phases = field.phases;
   for (std::size_t v = 0; v < now_.states.size(); ++v) now_.states[v].status = field.status[v];
-  if (share > 0) lead(reference::Status::set, share);
 }
 
 void ReferenceChain::lead(reference::Status which, double share) {

@@ -2,6 +2,7 @@
 // GPU holds, and the whole chain of passes stepped in the reference.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "passes/surface_buffers.h"
@@ -25,7 +26,8 @@ struct ReferenceScene {
   reference::Frames rest_frames;  // those the passes were given
   std::vector<std::uint32_t> tangent_neighbour;
   reference::SkinModel skin;
-  Eigen::VectorXd wavelength, mask, phase_noise, initial_phases;
+  Eigen::VectorXd wavelength, mask, initial_phases;
+  Eigen::Matrix2Xd wander;  // D in (t, b)
   reference::CrushSettings crush;
   reference::RelaxSettings relax;
 };
@@ -62,9 +64,9 @@ class ReferenceChain {
  private:
   const ReferenceScene& scene_;
   WaveSnapshot now_;
-  void advance(int step, const Pose& pose, bool with_crush);
+  void crush_and_relax(bool leads);
   void lead(reference::Status which, double share);
-  std::vector<Pose> last_;  // at most one
+  std::optional<Pose> last_, crushed_;
   std::vector<Eigen::Vector2d> first_directions_;
   WaveSnapshot remembered_;
 };

@@ -70,27 +70,30 @@ void Stepper::advance_to(int step) {
   while (step_ < step) {
     const Pose& pose = scene_.pose(step_ + 1);
     ++step_;
-    unchanged_ = last_pose_ && *last_pose_ == pose;
-    if (unchanged_) {
-      ++unchanged_steps_;
-    } else {
+    const double share = scene_.lead_at(step_);
+    const bool moved = !last_pose_ || *last_pose_ != pose;
+    // With an interval, a pose that holds may differ from the one that was crushed last.
+    const bool crushes = crush_runs_at(step_) && (!crushed_pose_ || *crushed_pose_ != pose);
+    if (moved) {
       skin(pose);
       observe(Stage::posed);
-      if (crush_runs_at(step_)) {
-        const double share = scene_.lead_at(step_);
-        crush();
-        observe(Stage::crushed);
-        if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);
-        observe(Stage::begun);
-        relax();
-        observe(Stage::relaxed);
-        if (share > 0) {
-          relax_.lead(surface_, remembered_phases_, remembered_states_, share);
-          observe(Stage::led);
-        }
-      }
       last_pose_ = pose;
     }
+    if (crushes) {
+      crush();
+      observe(Stage::crushed);
+      if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);
+      observe(Stage::begun);
+      relax();
+      observe(Stage::relaxed);
+      crushed_pose_ = pose;
+    }
+    if (share > 0) {
+      relax_.lead(surface_, remembered_phases_, remembered_states_, share);
+      observe(Stage::led);
+    }
+    unchanged_ = !moved && !crushes && !(share > 0);
+    if (unchanged_) ++unchanged_steps_;
     if (scene_.remembers_at(step_)) {
       remembered_phases_.write(surface_.phases.read<std::uint8_t>());
       remembered_states_.write(surface_.states.read<std::uint8_t>());
@@ -171,6 +174,9 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
   }
   step_ = header.step;
   last_pose_ = scene_.pose(step_);
+  int crushed = step_;
+  while (!crush_runs_at(crushed)) --crushed;
+  crushed_pose_ = scene_.pose(crushed);
   unchanged_ = false;
   scene_.drop_poses_before(step_);
   return true;

@@ -59,7 +59,7 @@ class Stepper {
   gpu::Buffer remembered_phases_,
       remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
-  std::optional<Pose> last_pose_;
+  std::optional<Pose> last_pose_, crushed_pose_;
   bool unchanged_ = false;
   int unchanged_steps_ = 0;
 };

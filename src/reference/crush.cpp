@@ -18,8 +18,9 @@ namespace {
 constexpr double least_singular_value = 0.05;  // r_min
 
 // k moves toward this frame's k̂ by as much as k̂ is to be trusted (contract, state over time, rule 2).
-Vector2d updated_direction(const Vector2d& k, const Vector2d& minimum, double gap) {
-  if (k.isZero(0)) return gap > 0.01 ? minimum : Vector2d(0, 0);
+// An idle vertex's is as good as unset.
+Vector2d updated_direction(const Vector2d& k, bool unset, const Vector2d& minimum, double gap) {
+  if (unset) return gap > 0.01 ? minimum : k;
   return (k + std::min(gap / 0.01, 1.0) * (minimum - k)).normalized();
 }
 
@@ -66,14 +67,15 @@ CrushResult crush_vertex(const Matrix2d& M, double wavelength, double mask, cons
   // As v₂ = (−sin θ, cos θ) with cos θ ≥ 0; then along the kept direction where there is one.
   if (result.minimum.y() < 0) result.minimum = -result.minimum;
   if (previous.direction.dot(result.minimum) < 0) result.minimum = -result.minimum;
-  result.direction = updated_direction(previous.direction, result.minimum, result.gap);
+  const bool unset = previous.direction.isZero(0) || (settings.smooth && previous.status == Status::idle);
+  result.direction = updated_direction(previous.direction, unset, result.minimum, result.gap);
   result.wave_vector = wave_vector(M, result.direction);
   result.wavenumber = result.wave_vector / wavelength;
 
   const double relative = mask * relative_height(result.r, settings.dead_zone);  // h/W
   result.height = wavelength * relative;
   result.weight = std::clamp((relative - 0.0125) / 0.0625, 0.0, 1.0);
-  result.status = updated_status(previous.status, 1 - result.r, mask, !result.direction.isZero(0), settings);
+  result.status = updated_status(previous.status, 1 - result.r, mask, !unset || result.gap > 0.01, settings);
   return result;
 }
 

@@ -119,7 +119,7 @@ VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings
   VertexWaves waves;
   waves.wavelength.assign(count, wavelength);
   waves.mask.assign(count, settings.strength);
-  waves.phase_noise.assign(count, 0.0);
+  waves.wander.assign(count, glm::dvec3(0));
   const auto distance = distance_from_stiff(surface, wavelength);
   for (std::size_t v = 0; v < count; ++v) {
     const double s = std::min(distance[v] / wavelength, 1.0);
@@ -127,8 +127,9 @@ VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings
     if (settings.irregularity > 0) {
       const glm::dvec3 x = surface.rest[v] / (3 * wavelength);
       waves.wavelength[v] *= 1 + 0.25 * settings.irregularity * noise(x, settings.seed, 0);
-      waves.phase_noise[v] =
-          0.25 * settings.irregularity * glm::two_pi<double>() * noise(x, settings.seed, 1);
+      waves.wander[v] =
+          0.25 * settings.irregularity *
+          glm::dvec3(noise(x, settings.seed, 1), noise(x, settings.seed, 2), noise(x, settings.seed, 3));
     }
   }
   return waves;

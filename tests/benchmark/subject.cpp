@@ -96,7 +96,7 @@ Subject grid_subject(const Effort& effort) {
   subject.rest = rest_frames(surface);
   subject.waves.wavelength.assign(surface.vertex_count(), 0.05);
   subject.waves.mask.assign(surface.vertex_count(), 1);
-  subject.waves.phase_noise.assign(surface.vertex_count(), 0);
+  subject.waves.wander.assign(surface.vertex_count(), glm::dvec3(0));
   // Rest, then the squeeze.
   subject.palettes = {bent(1, 0, subject.units), bent(0.75, 0.1, subject.units)};
   subject.profile = passes::make_profile("sinusoid");

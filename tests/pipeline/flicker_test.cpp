@@ -108,7 +108,9 @@ void expect_steady(const std::string& name, const Worst& worst) {
   EXPECT_GT(worst.vertices, 1000) << name;
   EXPECT_LT(worst.phase, random_phase / 5) << name;
   EXPECT_LT(worst.ratio, 1) << name;
-  EXPECT_LE(worst.jumps, 1e-3 * worst.vertices) << name;
+  // A dislocation that heals takes a vertex or two through half a turn; of random phases 680 in a thousand
+  // jump.
+  EXPECT_LE(worst.jumps, 2e-3 * worst.vertices) << name;
 }
 
 TEST_F(Flicker, TheSleevesWrinklesTravelWithTheCloth) {
@@ -181,6 +183,26 @@ TEST_F(Flicker, PhasesOfALoopClose) {
     EXPECT_GT(seam.vertices, 20) << name;
     EXPECT_LT(seam.phase, 0.35) << name;
     RecordProperty(name + "_seam_rad", std::to_string(seam.phase));
+  }
+}
+
+// The second period, which a loop shows, is laid as well as the first: what a vertex remembers of the last
+// wave, its direction above all, must not tear the next one. Middle frames, where most is compressed.
+// Directions taken over at onset gave the curtain .016 where its first period had .001.
+TEST_F(Flicker, TheSecondPeriodIsLaidAsWellAsTheFirst) {
+  for (const std::string name : {"curtain", "shirt", "sleeve", "zeppelin"}) {
+    SceneSettings settings = load_scene(test::asset(name + ".toml"));
+    settings.wrinkles.irregularity = 0;
+    const auto misfit = [&](bool loop) {
+      settings.model.loop = loop;
+      History history(settings);
+      const int middle = history.scene.animation.timeline().frame_count / 2;
+      return test::misfit(history.scene.surface(), history.at(middle));
+    };
+    const double first = misfit(false), second = misfit(true);
+    std::printf("%s: misfit %.2g, second period %.2g turns²\n", name.c_str(), first, second);
+    // Another start of the same waves: a dislocation more or less. Random phases have 1/12.
+    EXPECT_LT(second, 2 * first + 2e-3) << name;
   }
 }
 

@@ -26,7 +26,7 @@ Sheet sheet(const std::vector<glm::dvec3>& points, const std::vector<std::uint32
     surface.render_vertices[v].normal = glm::vec3(result.rest.normal[v]);
   }
   result.waves = {std::vector<double>(count, W), std::vector<double>(count, 1.0),
-                  std::vector<double>(count, 0.0)};
+                  std::vector<glm::dvec3>(count, glm::dvec3(0))};
   return result;
 }
 
