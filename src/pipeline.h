@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "config/frames.h"
 #include "config/settings.h"
 #include "gpu/context.h"
@@ -21,7 +22,6 @@ using GlInfo = gpu::Info;
 struct RenderRequest {
   SceneSettings scene;
   bool skip_existing = false;     // trust a frame whose file is whole and whose hash is right
-  bool overwrite = true;          // false: an existing file is an error (5)
   std::string state_file;         // empty: none
   std::vector<std::string> aovs;  // height, normal, amplitude, phase, direction, tension, depth
   int device = -1;                // −1: first that works
@@ -34,7 +34,8 @@ struct FrameReport {
   std::string path;
   std::map<std::string, double> ms;  // skin, crush, relax, render, readback, encode, write
   bool skipped = false;
-  std::string error;  // empty: rendered
+  std::string error;               // empty: rendered
+  ExitCode code = ExitCode::fine;  // of the error
 };
 
 struct RenderReport {
@@ -43,10 +44,14 @@ struct RenderReport {
   std::string timer;  // "cpu" | "gpu"
   std::vector<FrameReport> frames;
   double wavelength_m = 0;
-  double fps = 0, wall_s = 0;
+  double fps = 0, wall_s = 0;  // frames that were drawn, by all the time it took
   std::map<std::string, int>
       skipped;  // what was left out and how often: "existing frames", "unchanged pose", …
   bool interrupted = false;
+  // fine; no_output: a frame or the state could not be written, and the run stopped; some_frames: memory was
+  // too small for some, the others stand; try_again: for all.
+  ExitCode outcome = ExitCode::fine;
+  std::string failure;  // the first error's text
 };
 
 // Called after every finished frame, from one thread: (done, total, report of that frame).

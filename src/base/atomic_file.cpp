@@ -60,43 +60,63 @@ std::filesystem::path temporary_name(const std::filesystem::path& folder) {
   return folder / fmt::format(".plisse-{}-{}.tmp", ::getpid(), counter++);
 }
 
-}  // namespace
-
-void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+// Where a path leads; a folder is none.
+std::filesystem::path target_of(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto target = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(path, ignored)
                           ? std::filesystem::canonical(path, ignored)
                           : path;
+  if (std::filesystem::is_directory(target, ignored)) fail_write(path, EISDIR);
+  return target;
+}
+
+bool is_device(const std::filesystem::path& target) {
+  std::error_code ignored;
   const auto kind = std::filesystem::status(target, ignored).type();
-  if (kind == std::filesystem::file_type::directory) fail_write(path, EISDIR);
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
-      kind != std::filesystem::file_type::none) {
+  return kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
+         kind != std::filesystem::file_type::none;
+}
+
+// An empty file beside the target, in a folder that is made where it is missing.
+std::filesystem::path new_temporary(const std::filesystem::path& path, const std::filesystem::path& target) {
+  const auto folder = target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+  std::error_code made;
+  std::filesystem::create_directories(folder, made);
+  if (made) fail_write(path, made.value());
+  // O_EXCL: a name left by a killed process, or taken by another machine on the same disk, is passed over.
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const auto temporary = temporary_name(folder);
+    if (Descriptor(temporary, O_WRONLY | O_CREAT | O_EXCL).number() >= 0) return temporary;
+    if (errno != EEXIST) fail_write(path, errno);
+  }
+  fail_write(path, EEXIST);
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  const auto target = target_of(path);
+  if (is_device(target)) {
     Descriptor device(target, O_WRONLY);
     const int error = device.number() < 0 ? errno : write_all(device, bytes);
     if (error != 0) fail_write(path, error);
     return;
   }
+  const auto temporary = new_temporary(path, target);
+  Descriptor file(temporary, O_WRONLY);
+  int error = file.number() < 0 ? errno : write_all(file, bytes);
+  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  ::unlink(temporary.c_str());
+  fail_write(path, error);
+}
 
-  const auto folder = target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-  std::error_code made;
-  std::filesystem::create_directories(folder, made);
-  if (made) fail_write(path, made.value());
-
-  // O_EXCL: a name left by a killed process, or taken by another machine on the same disk, is passed over.
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    const auto temporary = temporary_name(folder);
-    Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-    if (file.number() < 0) {
-      if (errno == EEXIST) continue;
-      fail_write(path, errno);
-    }
-    int error = write_all(file, bytes);
-    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error == 0) return;
-    ::unlink(temporary.c_str());
-    fail_write(path, error);
-  }
-  fail_write(path, EEXIST);
+void check_writable(const std::filesystem::path& path) {
+  const auto target = target_of(path);
+  if (!is_device(target))
+    ::unlink(new_temporary(path, target).c_str());
+  else if (::access(target.c_str(), W_OK) != 0)
+    fail_write(path, errno);
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {

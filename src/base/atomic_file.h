@@ -17,6 +17,10 @@ namespace plisse {
 void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
+// For a run that writes only at its end: throws what write_whole_file would throw, where that shows by making
+// a file beside the final name. Makes missing folders.
+void check_writable(const std::filesystem::path& path);
+
 // Throws Error(bad_input) with path and reason (missing, a folder, not readable).
 std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& path);
 

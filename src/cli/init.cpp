@@ -58,7 +58,8 @@ fs::path default_output(const std::string& model) {
 // The way from the scene's folder to the model; the absolute path where there is none.
 std::string path_from_scene(const fs::path& model, const fs::path& scene) {
   std::error_code failure;
-  const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
+  // Absolute: the folder may not be there yet, and then a relative one leads nowhere.
+  const fs::path folder = fs::absolute(scene).parent_path();
   const fs::path relative = fs::relative(model, folder, failure);
   return (failure || relative.empty() ? fs::absolute(model) : relative).generic_string();
 }

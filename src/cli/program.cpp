@@ -80,6 +80,7 @@ int run(int argc, const char* const* argv) {
 
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
+    reject_extras(program);  // in front of the command
     reject_extras(*command.app);
     return command.run();
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -97,20 +98,19 @@ ordered_json to_json(const RenderReport& report) {
           {"interrupted", report.interrupted}};
 }
 
-// Says how it went; returns how many frames failed.
-int summarise(const RenderReport& report, const std::string& where) {
+// Says how it went.
+void summarise(const RenderReport& report, const std::string& where) {
   int reached = 0, failed = 0, skipped = 0;
   for (const FrameReport& frame : report.frames) {
     reached += was_reached(frame) ? 1 : 0;
     skipped += frame.skipped ? 1 : 0;
-    if (!frame.error.empty() && ++failed <= 10)
+    if (!frame.error.empty() && ++failed <= 10 && report.outcome == ExitCode::some_frames)
       log::warn(fmt::format("frame {}: {}", frame.frame, frame.error));
   }
   const int written = reached - skipped - failed;
   log::notice(fmt::format("{} frame{} in {:.2f} s ({:.1f} fps){}{} → {}", written, written == 1 ? "" : "s",
                           report.wall_s, report.fps, skipped > 0 ? fmt::format(", {} skipped", skipped) : "",
                           failed > 0 ? fmt::format(", {} failed", failed) : "", where));
-  return failed;
 }
 
 int run_render(Arguments& arguments) {
@@ -122,18 +122,22 @@ int run_render(Arguments& arguments) {
   const RenderRequest request = arguments.request();
   install_interrupt_handlers();
 
+  if (!arguments.common.json().empty() && arguments.common.json() != "-")
+    check_writable(arguments.common.json());
   RenderReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
     report = render(request, frame_progress(progress));
   }
-  const int failed = summarise(report, request.scene.output.path);
+  summarise(report, request.scene.output.path);
   write_report(to_json(report), arguments.common.json());
   if (report.interrupted) {
     log::notice("interrupted; the frames written so far are whole");
     return 128 + signal_number();
   }
-  return static_cast<int>(failed > 0 ? ExitCode::some_frames : ExitCode::fine);
+  if (report.outcome == ExitCode::no_output || report.outcome == ExitCode::try_again)
+    throw Error(report.outcome, report.failure);
+  return static_cast<int>(report.outcome);
 }
 
 }  // namespace

@@ -109,11 +109,14 @@ std::optional<Place> find_place(const std::string& name) {
   return std::nullopt;
 }
 
-bool is_png(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension == ".png";
+  return text;
+}
+
+bool is_png(const std::string& name) {
+  return lower(fs::path(name).extension().string()) == ".png";
 }
 
 }  // namespace
@@ -163,9 +166,14 @@ bool is_frame_pattern(const std::string& path) {
 
 void check_frame_pattern(const std::string& pattern) {
   const std::string name = fs::path(pattern).filename().string();
-  if (find_place(name) && fs::path(name).has_extension() && !is_png(name)) {
+  const std::string extension = lower(fs::path(name).extension().string());
+  // A folder may have a dot in its name, but nobody calls one so.
+  static const std::set<std::string> other_pictures{".jpg", ".jpeg", ".exr", ".tif", ".tiff", ".tga",
+                                                    ".bmp", ".webp", ".gif", ".mp4", ".webm", ".mov",
+                                                    ".mkv", ".avi",  ".ppm", ".hdr"};
+  if ((find_place(name) && !extension.empty() && extension != ".png") || other_pictures.count(extension)) {
     throw Error(ExitCode::bad_input,
-                fmt::format("'{}': frames are written as PNG; end the pattern in .png", pattern));
+                fmt::format("'{}': frames are written as PNG; end the name in .png", pattern));
   }
 }
 

@@ -49,6 +49,12 @@ glm::vec3 shown(passes::Aov aov, const glm::vec3& value, float scale) {
   return glm::vec3(value.x / scale);
 }
 
+// "frames/frame_0001.png" → "frames/frame_0001.height".
+std::string stem_of(const std::string& frame_path, passes::Aov aov) {
+  return std::filesystem::path(frame_path).replace_extension().string() + "." +
+         aov_names()[static_cast<std::size_t>(aov)];
+}
+
 }  // namespace
 
 std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names) {
@@ -65,6 +71,14 @@ std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names) {
   return aovs;
 }
 
+bool aovs_are_whole(const std::vector<passes::Aov>& aovs, const std::string& frame_path,
+                    const std::string& hash) {
+  return std::all_of(aovs.begin(), aovs.end(), [&](passes::Aov aov) {
+    const std::string stem = stem_of(frame_path, aov);
+    return std::filesystem::exists(stem + ".exr") && io::png_is_whole(stem + ".png", hash);
+  });
+}
+
 AovWriter::AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::vector<passes::Aov> aovs)
     : scene_(scene),
       pass_(pass),
@@ -72,7 +86,7 @@ AovWriter::AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::ve
       target_(scene.settings.output.width, scene.settings.output.height, 1, gpu::Target::Format::rgba32f) {}
 
 void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View& view,
-                      const std::string& frame_path) {
+                      const std::string& frame_path, const std::string& hash) {
   const int width = target_.width(), height = target_.height();
   for (const passes::Aov aov : aovs_) {
     pass_.draw_aov(surface, view, target_, aov);
@@ -101,10 +115,9 @@ void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View&
       }
       picture.rgba[i + 3] = covered ? 255 : 0;
     }
-    const std::filesystem::path base = std::filesystem::path(frame_path).replace_extension();
-    const std::string stem = base.string() + "." + aov_names()[static_cast<std::size_t>(aov)];
+    const std::string stem = stem_of(frame_path, aov);
     io::write_exr(stem + ".exr", width, height, channels, values);
-    io::write_png(stem + ".png", picture);
+    io::write_png(stem + ".png", picture, {.hash = hash});
   }
 }
 

@@ -15,10 +15,16 @@ std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names);
 
 // Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], or 1 − r; 0 where
 // nothing is seen) and `name.height.png` (the same, brought into 0…1).
+// Whether all of them stand beside a frame already, whole and made with this hash.
+bool aovs_are_whole(const std::vector<passes::Aov>& aovs, const std::string& frame_path,
+                    const std::string& hash);
+
 class AovWriter {
  public:
   AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::vector<passes::Aov> aovs);
-  void write(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& frame_path);
+  // `hash` is the frame's; the PNG carries it, written after the EXR.
+  void write(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& frame_path,
+             const std::string& hash);
 
  private:
   const LoadedScene& scene_;

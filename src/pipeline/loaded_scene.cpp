@@ -214,9 +214,10 @@ passes::View LoadedScene::view(int frame) const {
     if (found < 0) {
       throw Error(
           ExitCode::bad_input,
-          fmt::format("{}: no camera '{}'{}; it has {}", model.path.string(), camera.name,
-                      did_you_mean(camera.name, names),
-                      names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
+          fmt::format(
+              "{}: no camera '{}'{}; it has {}; or give azimuth,elevation[,focal] or eye=x,y,z;target=x,y,z",
+              model.path.string(), camera.name, did_you_mean(camera.name, names),
+              names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
     }
     const io::Camera& chosen = model.cameras[static_cast<std::size_t>(found)];
     const glm::dmat4 place = animation.node_matrix(chosen.node, frame);

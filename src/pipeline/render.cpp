@@ -1,15 +1,12 @@
 // The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads
 // that encode and write while the next one is drawn.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <filesystem>
 #include <mutex>
-#include <thread>
+#include <new>
 
 #include "base/atomic_file.h"
 #include "base/colour.h"
@@ -17,9 +14,11 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "config/frames.h"
+#include "gpu/shader_source.h"
 #include "io/png.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
+#include "pipeline/frame_writer.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/stepper.h"
 
@@ -30,60 +29,6 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
-
-// Encoding a frame takes about as long as llvmpipe takes to draw one on all cores: four threads keep up with
-// a GPU.
-int writer_threads() {
-  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return static_cast<int>(std::min<std::size_t>(allowed, 4));
-}
-
-// Encodes and writes frames on threads of its own, a few at a time: more would only hold memory.
-class FrameWriter {
- public:
-  using Job = std::function<void()>;
-  explicit FrameWriter(int threads) {
-    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
-  }
-  ~FrameWriter() { finish(); }
-  void submit(Job job) {
-    std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return jobs_.size() < 2 * threads_.size(); });
-    jobs_.push_back(std::move(job));
-    work_.notify_one();
-  }
-  void finish() {
-    {
-      std::lock_guard lock(mutex_);
-      done_ = true;
-    }
-    work_.notify_all();
-    for (auto& thread : threads_) {
-      if (thread.joinable()) thread.join();
-    }
-  }
-
- private:
-  void work() {
-    while (true) {
-      Job job;
-      {
-        std::unique_lock lock(mutex_);
-        work_.wait(lock, [this] { return done_ || !jobs_.empty(); });
-        if (jobs_.empty()) return;
-        job = std::move(jobs_.front());
-        jobs_.pop_front();
-      }
-      room_.notify_one();
-      job();
-    }
-  }
-  std::mutex mutex_;
-  std::condition_variable work_, room_;
-  std::deque<Job> jobs_;
-  std::vector<std::thread> threads_;
-  bool done_ = false;
-};
 
 // The picture was made with premultiplied colours in linear light; PNG wants straight alpha.
 void straighten_alpha(std::vector<std::uint8_t>& rgba) {
@@ -97,10 +42,42 @@ void straighten_alpha(std::vector<std::uint8_t>& rgba) {
   }
 }
 
-Hash driver_hash(const GlInfo& gl) {
+// What draws: driver and shaders.
+Hash driver_hash(const GlInfo& gl, const std::string& shader_folder) {
   Hash hash;
   hash.add(gl.vendor).add(gl.renderer).add(gl.version);
+  for (const auto& shader : gpu::embedded_shaders())
+    hash.add(shader.name).add(gpu::shader_source(shader.name, shader_folder));
   return hash;
+}
+
+// Calls `work` and files what it throws with the frame. A frame that wants too much memory is that frame's
+// misfortune; any other error than these is the run's.
+template <typename Work>
+void guarded(FrameReport& frame, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.code != ExitCode::no_output && error.code != ExitCode::try_again) throw;
+    frame.error = error.what();
+    frame.code = error.code;
+  } catch (const std::bad_alloc&) {
+    frame.error =
+        fmt::format("{}: memory is exhausted; try again with fewer threads or a smaller picture", frame.path);
+    frame.code = ExitCode::try_again;
+  }
+}
+
+ExitCode outcome(const std::vector<FrameReport>& frames) {
+  bool failed = false, stands = false, unwritten = false;
+  for (const FrameReport& frame : frames) {
+    failed = failed || !frame.error.empty();
+    stands = stands || frame.error.empty();
+    unwritten = unwritten || frame.code == ExitCode::no_output;
+  }
+  if (!failed) return ExitCode::fine;
+  if (unwritten) return ExitCode::no_output;
+  return stands ? ExitCode::some_frames : ExitCode::try_again;
 }
 
 }  // namespace
@@ -113,9 +90,10 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   check_frame_paths(output.path, frames);
   const auto aovs = pipeline::parse_aovs(request.aovs);
 
+  if (!request.state_file.empty()) check_writable(request.state_file);
   const gpu::Context context(request.device);
   gpu::StageTimer timer(context.info().software);
-  const Hash driver = driver_hash(context.info());
+  const Hash driver = driver_hash(context.info(), request.shader_folder);
 
   RenderReport report;
   report.gl = context.info();
@@ -140,40 +118,34 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
     ++done;
     if (on_frame) on_frame(done, static_cast<int>(frames.size()), report.frames[index]);
   };
-  std::exception_ptr stop;  // a frame that cannot be written: the next one would fare the same
-  io::Image last_picture;   // of the last drawn step, for poses that stay
+  bool full = false;       // a frame could not be written: the next one would fare the same
+  io::Image last_picture;  // of the last drawn step, for poses that stay
   int last_picture_step = 0;
 
   {
-    FrameWriter writer(writer_threads());
+    pipeline::FrameWriter writer;
     for (std::size_t i = 0; i < frames.size(); ++i) {
+      {
+        std::lock_guard lock(callback_mutex);
+        if (full) break;
+      }
+      const int frame = frames[i];
       if (interrupted()) {
         report.interrupted = true;
         break;
       }
-      {
-        std::lock_guard lock(callback_mutex);
-        if (stop) break;
-      }
-      const int frame = frames[i];
       FrameReport& entry = report.frames[i];
       entry.frame = frame;
       entry.time_s = scene.animation.timeline().time(frame);
       entry.path = frame_path(output.path, frame);
       const std::string hash = scene.frame_hash(frame, driver);
       const bool exists = std::filesystem::exists(entry.path);
-      if (request.skip_existing && exists && aovs.empty() && io::png_is_whole(entry.path, hash)) {
+      if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
+          pipeline::aovs_are_whole(aovs, entry.path, hash)) {
         entry.skipped = true;
         ++report.skipped["existing frames"];
         finished(i);
         continue;
-      }
-      if (exists && !request.overwrite && !request.skip_existing) {
-        throw Error(
-            ExitCode::no_output,
-            fmt::format(
-                "{} exists already; --overwrite replaces it, --skip-existing keeps frames that are whole",
-                entry.path));
       }
       if (!stepper) {
         stepper.emplace(scene, timer, request.shader_folder);
@@ -186,58 +158,77 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       }
       const int step = scene.step_of_frame(frame);
       const int before = stepper->step();
-      stepper->advance_to(step);
+      if (!stepper->advance_to(step)) {
+        entry.frame = 0;
+        report.interrupted = true;
+        break;
+      }
       const passes::View view = scene.view(frame);
       io::Image picture;
-      const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before &&
-                        scene.settings.camera.name.empty();
-      if (same) {
-        picture = last_picture;
-      } else {
-        timer.begin("render");
-        pass->draw_resolved(stepper->surface(), view, *target, context.info().software);
-        timer.end();
-        const double read = now_ms();
-        picture.width = output.width;
-        picture.height = output.height;
-        picture.rgba = target->read_rgba8();
-        if (output.transparent) straighten_alpha(picture.rgba);
-        entry.ms["readback"] = now_ms() - read;
-        last_picture = picture;
-      }
-      last_picture_step = step;
+      guarded(entry, [&] {
+        const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before &&
+                          scene.settings.camera.name.empty();
+        if (same) {
+          picture = last_picture;
+        } else {
+          timer.begin("render");
+          pass->draw_resolved(stepper->surface(), view, *target, context.info().software);
+          timer.end();
+          const double read = now_ms();
+          picture.width = output.width;
+          picture.height = output.height;
+          picture.rgba = target->read_rgba8();
+          if (output.transparent) straighten_alpha(picture.rgba);
+          entry.ms["readback"] = now_ms() - read;
+          last_picture = picture;
+        }
+        last_picture_step = step;
+        if (aov_writer) aov_writer->write(stepper->surface(), view, entry.path, hash);
+      });
       for (const auto& [stage, ms] : timer.collect()) entry.ms[stage] += ms;
-      if (aov_writer) aov_writer->write(stepper->surface(), view, entry.path);
 
       writer.submit([&, i, hash, picture = std::move(picture)] {
         FrameReport& mine = report.frames[i];
-        try {
-          const double encode = now_ms();
-          io::PngOptions options;
-          options.hash = hash;
-          const auto bytes = io::encode_png(picture, options);
-          const double write = now_ms();
-          write_whole_file(mine.path, bytes);
-          mine.ms["encode"] = write - encode;
-          mine.ms["write"] = now_ms() - write;
-        } catch (const Error& error) {
-          mine.error = error.what();
+        if (mine.error.empty()) {
+          guarded(mine, [&] {
+            const double encode = now_ms();
+            io::PngOptions options;
+            options.hash = hash;
+            const auto bytes = io::encode_png(picture, options);
+            const double write = now_ms();
+            write_whole_file(mine.path, bytes);
+            mine.ms["encode"] = write - encode;
+            mine.ms["write"] = now_ms() - write;
+          });
+        }
+        if (mine.code == ExitCode::no_output) {
           std::lock_guard lock(callback_mutex);
-          if (!stop) stop = std::current_exception();
+          full = true;
         }
         finished(i);
       });
     }
     writer.finish();
   }
-  if (stop) std::rethrow_exception(stop);
   std::erase_if(report.frames, [](const FrameReport& frame) { return frame.frame == 0; });
+  report.outcome = outcome(report.frames);
+  for (const FrameReport& frame : report.frames)
+    if (report.failure.empty()) report.failure = frame.error;
+  int drawn = 0;
+  for (const FrameReport& frame : report.frames) drawn += !frame.skipped && frame.error.empty() ? 1 : 0;
   if (stepper) {
     if (stepper->unchanged_steps() > 0) report.skipped["unchanged poses"] = stepper->unchanged_steps();
-    if (!request.state_file.empty()) stepper->write_state(request.state_file, driver);
+    if (!request.state_file.empty()) {
+      try {
+        stepper->write_state(request.state_file, driver);
+      } catch (const Error& error) {  // the frames stand all the same
+        report.outcome = ExitCode::no_output;
+        if (report.failure.empty()) report.failure = error.what();
+      }
+    }
   }
   report.wall_s = (now_ms() - started) * 1e-3;
-  report.fps = report.wall_s > 0 ? static_cast<double>(report.frames.size()) / report.wall_s : 0;
+  report.fps = report.wall_s > 0 ? drawn / report.wall_s : 0;
   return report;
 }
 

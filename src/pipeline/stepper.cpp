@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstring>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/log.h"
 
 namespace plisse::pipeline {
@@ -66,8 +68,15 @@ void Stepper::observe(Stage stage) const {
   if (observer) observer(stage);
 }
 
-void Stepper::advance_to(int step) {
+bool Stepper::advance_to(int step) {
+  using namespace std::chrono_literals;
+  auto told = std::chrono::steady_clock::now();
   while (step_ < step) {
+    if (interrupted()) return false;
+    if (const auto now = std::chrono::steady_clock::now(); now - told > 2s) {
+      log::notice(fmt::format("stepping through the frames before: {} of {}", step_, step));
+      told = now;
+    }
     const Pose& pose = scene_.pose(step_ + 1);
     ++step_;
     const double share = scene_.lead_at(step_);
@@ -100,6 +109,7 @@ void Stepper::advance_to(int step) {
     }
     scene_.drop_poses_before(step_);
   }
+  return true;
 }
 
 namespace {

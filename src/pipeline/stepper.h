@@ -24,7 +24,8 @@ class Stepper {
   Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& shader_folder);
 
   // Steps on until the state is that of `step` (LoadedScene::step_of_frame); never backward.
-  void advance_to(int step);
+  // Stops between two steps where the run is interrupted (base/interrupt.h), and returns false.
+  bool advance_to(int step);
   int step() const { return step_; }
   // Whether the last step found the pose of the one before, bit for bit, and left everything as it was.
   bool unchanged() const { return unchanged_; }

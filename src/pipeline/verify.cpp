@@ -53,15 +53,14 @@ class Verifier {
     stepper_.observer = [this](pipeline::Stepper::Stage stage) { waves_.observe(stage); };
     const int last = scene_.step_of_frame(wanted.back());
     for (int step = 1; step <= last; ++step) {
-      if (interrupted()) {
-        report.interrupted = true;
-        break;
-      }
       const int frame = scene_.frame_of_step(step);
       const bool looking =
           step == scene_.step_of_frame(frame) && std::binary_search(wanted.begin(), wanted.end(), frame);
       waves_.before_step(step, looking);
-      stepper_.advance_to(step);
+      if (!stepper_.advance_to(step)) {
+        report.interrupted = true;
+        break;
+      }
       waves_.after_step(step);
       if (!looking) continue;
       const auto gpu = pipeline::read_snapshot(stepper_.surface());

@@ -71,6 +71,8 @@ TEST_F(Program, UnknownCommandsAndOptionsNameTheNearest) {
          "unknown option '--wavelenth' (did you mean '--wavelength'?)");
   expect({"render", "--wavelenth=3", "a.glb"}, "unknown option '--wavelenth' (did you mean '--wavelength'?)");
   expect({"verify", "a.glb", "--output", "x"}, "unknown option '--output'");
+  expect({"--bogus", "info", "a.glb"}, "unknown option '--bogus'");
+  expect({"--json", "-", "info", "a.glb"}, "unknown option '--json'");
   expect({"--verison"}, "unknown option '--verison' (did you mean '--version'?)");
   expect({}, "give a command: render, info, init, verify, size");
   expect({"render"}, "give a SCENE.toml or a MODEL");

@@ -225,7 +225,8 @@ TEST_F(SceneFile, UnknownWordsAndShapes) {
   EXPECT_THAT(complaint("[light]\nkey_colour = \"#1234567\"\n"), HasSubstr("is not a colour"));
   EXPECT_THAT(complaint("[light]\nkey_colour = [1, 2]\n"), HasSubstr("2 numbers are no colour"));
   EXPECT_THAT(complaint("[output]\nsize = \"640 x 512\"\n"), HasSubstr("is not a size like"));
-  EXPECT_THAT(complaint("[output]\npath = \"a_####.jpg\"\n"), HasSubstr("end the pattern in .png"));
+  EXPECT_THAT(complaint("[output]\npath = \"a_####.jpg\"\n"), HasSubstr("end the name in .png"));
+  EXPECT_THAT(complaint("[output]\npath = \"a.jpg\"\n"), HasSubstr("end the name in .png"));
 }
 
 TEST_F(SceneFile, ModelMustBeThere) {

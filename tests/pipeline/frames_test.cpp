@@ -201,6 +201,31 @@ TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixel) {
   }
 }
 
+TEST_F(Frames, SkipExistingTrustsDataPicturesAndShadersToo) {
+  const TemporaryFolder folder, shaders;
+  RenderRequest request = small_sleeve(folder.path(), "2");
+  request.scene.model.loop = false;
+  request.aovs = {"height"};
+  run(request);
+  request.skip_existing = true;
+  const auto is_skipped = [&] { return run(request).frames.at(0).skipped; };
+  EXPECT_TRUE(is_skipped());
+  std::filesystem::remove(folder / "frame_0002.height.exr");
+  EXPECT_FALSE(is_skipped());
+  EXPECT_TRUE(is_skipped());
+  request.aovs = {"height", "depth"};
+  EXPECT_FALSE(is_skipped());
+
+  std::filesystem::copy(
+      std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", shaders.path(),
+      std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+  request.shader_folder = shaders.path().string();
+  EXPECT_TRUE(is_skipped()) << "the same shaders from a folder";
+  const auto shading = shaders / "common" / "shading.glsl";
+  test::write_text(shading, test::read_text(shading) + "// another\n");
+  EXPECT_FALSE(is_skipped());
+}
+
 TEST_F(Frames, NothingElseIsLeftInTheFolder) {
   const TemporaryFolder folder;
   RenderRequest request = small_sleeve(folder.path() / "deep" / "er", "1-3");
@@ -217,13 +242,11 @@ TEST_F(Frames, AFolderThatCannotBeMadeIsNoOutput) {
   test::write_text(folder / "file", "in the way");
   RenderRequest request = small_sleeve(folder / "file" / "frames", "1");
   request.scene.model.loop = false;
-  try {
-    run(request);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::no_output);
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("file"));
-  }
+  const RenderReport report = run(request);
+  EXPECT_EQ(report.outcome, ExitCode::no_output);
+  EXPECT_THAT(report.failure, ::testing::HasSubstr("file"));
+  ASSERT_EQ(report.frames.size(), 1U);
+  EXPECT_EQ(report.frames[0].error, report.failure);
   EXPECT_EQ(test::read_text(folder / "file"), "in the way");
   EXPECT_EQ(test::names_in(folder.path()), std::vector<std::string>{"file"});
 }

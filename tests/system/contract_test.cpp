@@ -171,6 +171,29 @@ TEST_F(Program, OutputThatCannotBeWrittenIsFive) {
   }
 }
 
+// Each frame wants 1.6 GB for its picture alone, and may have 1 GB.
+TEST_F(Program, MemoryThatIsTooSmallIsSeventyFiveAndReported) {
+  const TemporaryFolder folder;
+  const std::string report = (folder / "report.json").string();
+  const Outcome outcome =
+      run_program("/bin/sh", {"-c", std::string("ulimit -v 1500000; exec ") + PLISSE_PROGRAM + " render " +
+                                        square + " --frames 1-2 --samples 1 --size 16000x16000 -o " +
+                                        (folder / "f").string() + " --json " + report});
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("error: "));
+}
+
+TEST_F(Program, TheHistoryIsInterruptedToo) {
+  const TemporaryFolder folder;
+  // A thousand steps of six thousand vertices between the two: seconds.
+  const Outcome outcome =
+      interrupt_program(PLISSE_PROGRAM,
+                        with_tiny({"render", asset("model_b.glb").string(), "--fps", "1000", "--frames",
+                                   "1,1000", "-o", folder.path().string()}),
+                        SIGINT, folder / "frame_0001.png");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+}
+
 TEST_F(Program, ASignalEndsItBetweenFrames) {
   for (const auto& [signal, code] : {std::pair(SIGTERM, 143), std::pair(SIGINT, 130)}) {
     const TemporaryFolder folder;
@@ -306,6 +329,9 @@ TEST(Reports, Init) {
   const std::string text = read_text(scene);
   EXPECT_THAT(text, HasSubstr("#"));
   EXPECT_EQ(plisse({"init", square, "-o", scene}).code, 5);  // keeps what stands there
+  // A folder that is not there yet: the way to the model is relative all the same.
+  ASSERT_EQ(plisse({"init", square, "-o", "new/folder/s.toml"}, {}, folder.path()).code, 0);
+  EXPECT_THAT(read_text(folder / "new/folder/s.toml"), Not(HasSubstr("path = \"/")));
   EXPECT_EQ(read_text(scene), text);
 }
 

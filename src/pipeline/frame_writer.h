@@ -1,0 +1,33 @@
+// Encodes and writes frames on threads of its own while the next one is drawn.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace plisse::pipeline {
+
+class FrameWriter {
+ public:
+  // Must not throw.
+  using Job = std::function<void()>;
+  // As many threads as a GPU needs, four, or as --threads allows.
+  FrameWriter();
+  ~FrameWriter() { finish(); }
+  // Waits where two jobs a thread wait already: more would only hold memory.
+  void submit(Job job);
+  void finish();
+
+ private:
+  void work();
+  std::mutex mutex_;
+  std::condition_variable work_, room_;
+  std::deque<Job> jobs_;
+  std::vector<std::thread> threads_;
+  bool done_ = false;
+};
+
+}  // namespace plisse::pipeline
