@@ -264,7 +264,7 @@ void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
 
 void ReferenceChain::crush_and_relax(bool leads) {
   auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
-                                        scene_.wavelength, scene_.mask, scene_.crush, now_.states);
+                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
     if (now_.states[v].direction.isZero(0) && crushed[v].direction.dot(first_directions_[v]) < 0) {
