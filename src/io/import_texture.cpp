@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "base/log.h"
+#include "io/inside_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -62,17 +63,25 @@ std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string&
   return image;
 }
 
+void warn_outside(const std::filesystem::path& model, const std::filesystem::path& file) {
+  log::warn_once(
+      "outside " + file.string(),
+      fmt::format("{}: names {}, which lies outside its folder and is not read; copy it into the folder",
+                  model.string(), file.string()));
+}
+
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name) {
   namespace fs = std::filesystem;
   std::string decoded = percent_decoded(name);
   if (decoded.starts_with("file://")) decoded.erase(0, 7);
   const fs::path folder = model.parent_path();
   const fs::path bare = fs::path(decoded).filename();
-  const std::array<fs::path, 5> candidates{folder / name, folder / decoded, folder / bare,
-                                           folder / "textures" / bare, folder / "Textures" / bare};
+  const std::array<fs::path, 5> candidates{name, decoded, bare, "textures" / bare, "Textures" / bare};
   for (const fs::path& candidate : candidates) {
     std::error_code error;
-    if (fs::is_regular_file(candidate, error)) return candidate;
+    if (!fs::is_regular_file(folder / candidate, error)) continue;
+    if (!inside_folder(folder, candidate.string()).empty()) return folder / candidate;
+    warn_outside(model, candidate);
   }
   return {};
 }

@@ -336,7 +336,7 @@ TEST_F(Models, StrongestEightOfTenInfluences) {
 
 TEST_F(Models, ClothSequence) {
   const io::Model model = io::import_model(data() / "cloth-drape", {{}, "z"});
-  EXPECT_EQ(model.cache.frames.size(), 48U);
+  EXPECT_EQ(model.cache.size(), 48U);
   Animation animation(model, {});
   const Surface& surface = animation.surface();
   EXPECT_EQ(surface.vertex_count(), 1369U);  // 37 × 37, nothing to weld

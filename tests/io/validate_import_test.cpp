@@ -98,7 +98,7 @@ TEST(Validate, StopsEachBrokenThing) {
        [](Model& m) {
          m.textures.push_back({"t", {2, 2, std::vector<std::uint8_t>(12)}});
        }},
-      {"frame 1 of the cache", [](Model& m) { m.cache.frames.resize(1); }},
+      {"frame 1 of the cache", [](Model& m) { m.cache = VertexCache(std::vector<std::vector<glm::dvec3>>(1), 24); }},
       {"camera 'eye'",
        [](Model& m) {
          m.cameras.push_back({"eye", 2, 1});
