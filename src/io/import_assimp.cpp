@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "io/collada_arrays.h"
 #include "io/import_assimp_parts.h"
 #include "io/import_place.h"
 #include "io/import_texture.h"
@@ -153,6 +154,7 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   // Files with a skeleton and no mesh get a dummy body otherwise.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  if (kind_of(path) == FileKind::collada) check_collada_arrays(path);
   note_reader("assimp");
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   note_reader("");

@@ -42,6 +42,13 @@ float float_of(const char* bytes, bool big_endian) {
   return std::bit_cast<float>(word_of(bytes, big_endian));
 }
 
+std::string lower_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 class File {
  public:
   explicit File(const std::filesystem::path& path) : path_(path) {
@@ -111,20 +118,15 @@ Layout mdd_layout(File& file) {
 class PointFrames : public FrameSource {
  public:
   PointFrames(const std::filesystem::path& path, const Model& model) : file_(path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lower_ending(path);
     if (ending != ".mdd" && ending != ".pc2") file_.fail("not a point cache this program reads: MDD or PC2");
     layout_ = ending == ".pc2" ? pc2_layout(file_) : mdd_layout(file_);
     if (layout_.frames == 0) file_.fail("a point cache without frames");
     find_places(model);
     // After this 12·points·frames cannot run over: points is a mesh's, frames has 32 bits.
     if (layout_.points != expected_)
-      file_.fail(fmt::format(
-          "{} points a frame, but {} has {} vertices{}", layout_.points, model.path.string(), expected_,
-          numbered_ ? ""
-                    : "; this format does not keep the numbers that vertices had where it was "
-                      "exported: export the mesh as OBJ or PLY"));
+      file_.fail(fmt::format("{} points a frame, but {} has {} vertices", layout_.points, model.path.string(),
+                             expected_));
     const std::uint64_t whole = layout_.start + 12 * layout_.points * layout_.frames;
     if (file_.size() < whole)
       file_.fail(fmt::format("cut off: {} frames of {} points take {} bytes, it has {}", layout_.frames,
@@ -169,22 +171,27 @@ class PointFrames : public FrameSource {
                                  model.meshes[static_cast<std::size_t>(mesh)].name, model.path.string()));
       }
     }
-    numbered_ = model.file_vertex_count > 0;
+    // Whoever numbers vertices has also put them into the world (model.h).
+    const bool numbered = model.file_vertex_count > 0;
+    const std::string ending = lower_ending(model.path);
+    if (!numbered && ending != ".glb" && ending != ".gltf")
+      file_.fail(fmt::format(
+          "{} does not keep the numbers that vertices had where it was exported; export the mesh as "
+          "OBJ or PLY, or the animation with it",
+          model.path.string()));
     expected_ = model.file_vertex_count;
     for (std::uint32_t m = 0; m < model.meshes.size(); ++m) {
       const Mesh& mesh = model.meshes[m];
-      // Readers that number vertices put them into the world themselves (model.h).
-      if (numbered_) matrices_[m] = file_to_world(model.up, model.metres_per_unit);
+      if (numbered) matrices_[m] = file_to_world(model.up, model.metres_per_unit);
       for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        places_.push_back({numbered_ ? mesh.file_vertices[v] : static_cast<std::uint32_t>(expected_ + v), m});
-      if (!numbered_) expected_ += mesh.positions.size();
+        places_.push_back({numbered ? mesh.file_vertices[v] : static_cast<std::uint32_t>(expected_ + v), m});
+      if (!numbered) expected_ += mesh.positions.size();
     }
   }
 
   mutable File file_;
   Layout layout_;
   std::uint64_t expected_ = 0;
-  bool numbered_ = false;
   std::vector<Place> places_;
   std::vector<glm::dmat4> matrices_;  // of each mesh: cache → world
 };

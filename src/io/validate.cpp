@@ -111,6 +111,12 @@ class Check {
       if (item.triangles[i] >= vertices)
         fail(fmt::format("{}triangle {} names vertex {}, of {}", name, i / 3, item.triangles[i], vertices));
     all_finite(item.positions, name + "position");
+    // Damaged files turn into numbers of any size. The passes square lengths in single precision, which ends
+    // at 1.8e19.
+    constexpr double far = 1e18;
+    for (std::size_t v = 0; v < vertices; ++v)
+      if (glm::any(glm::greaterThan(glm::abs(item.positions[v]), glm::dvec3(far))))
+        fail(fmt::format("{}vertex {} lies over {:g} units from the origin", name, v, far));
     all_finite(item.normals, name + "normal");
     all_finite(item.uvs, name + "uv");
     count(item.normals, vertices, name + "normals");

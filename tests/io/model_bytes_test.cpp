@@ -24,6 +24,8 @@ Model full_model() {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.normals.assign(3, {0, 0, 1});
   mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.normal_uvs = {{1, 1}, {0, 0}, {1, 0}};
+  mesh.colours.assign(3, {0.5F, 0.25F, 1, 1});
   mesh.triangles = {0, 1, 2};
   mesh.bones = {{1, glm::dmat4{4}}};
   mesh.influences.resize(3);
@@ -39,6 +41,7 @@ Model full_model() {
   material.alpha_cutoff = 0.7F;
   material.two_sided = false;
   model.textures.emplace_back().name = "t.png";
+  model.textures[0].use = Texture::Use::normals;
   model.textures[0].image = {1, 1, {1, 2, 3, 4}};
   Channel channel;
   channel.node = 1;
@@ -85,7 +88,8 @@ TEST(ModelBytes, AnyCutIsNoticed) {
   EXPECT_THROW(model_from_bytes(longer), std::runtime_error);
 }
 
-// A reader that crashed may have written anything: decoding it and validating must end in an exception or a sound model.
+// A reader that crashed may have written anything: decoding it and validating must end in an exception or a
+// sound model.
 TEST(ModelBytes, DamageIsNoticedOrHarmless) {
   const std::vector<std::byte> bytes = bytes_of(full_model());
   std::mt19937 random(1);
