@@ -84,6 +84,9 @@ struct VerifyReport {
 // selection it takes at most eight frames spread over the clip.
 VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame);
 
+// How a scene wants its model read.
+io::ImportOptions import_options(const SceneSettings& scene);
+
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.
 double default_wavelength(const Surface& surface);

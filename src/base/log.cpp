@@ -28,6 +28,11 @@ void say(spdlog::level::level_enum level, std::string_view text) {
   logger().log(level, "{}", text);
 }
 
+WarningReceiver& receiver() {
+  static WarningReceiver instance;
+  return instance;
+}
+
 }  // namespace
 
 void set_level(Level level) {
@@ -43,6 +48,7 @@ void notice(std::string_view text) {
   say(spdlog::level::info, text);
 }
 void warn(std::string_view text) {
+  if (receiver()) return receiver()("", text);
   say(spdlog::level::warn, fmt::format("warning: {}", text));
 }
 
@@ -53,7 +59,12 @@ void warn_once(const std::string& key, std::string_view text) {
     std::lock_guard lock(mutex);
     if (!said.insert(key).second) return;
   }
+  if (receiver()) return receiver()(key, text);
   warn(text);
+}
+
+void redirect_warnings(WarningReceiver to) {
+  receiver() = std::move(to);
 }
 
 }  // namespace plisse::log

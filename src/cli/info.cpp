@@ -29,7 +29,10 @@ constexpr double default_frames_per_second = 24;
 
 struct Arguments {
   explicit Arguments(CLI::App& app)
-      : scene(app, [](const std::string& option) { return option == "--units" || option == "--up"; }),
+      : scene(app,
+              [](const std::string& option) {
+                return option == "--units" || option == "--up" || option == "--cache" || option == "--limits";
+              }),
         common(app) {
     app.add_option(
            "--fabric", fabric,
@@ -44,7 +47,9 @@ struct Arguments {
 };
 
 int frame_count(double duration, double frames_per_second) {
-  return static_cast<int>(duration * frames_per_second + 1e-3) + 1;
+  // A clip that is too long to be counted is an error once it is chosen.
+  constexpr double most = 1e9;
+  return static_cast<int>(std::min(duration * frames_per_second + 1e-3, most)) + 1;
 }
 
 ordered_json to_json(const glm::dvec3& v) {
@@ -137,8 +142,8 @@ ordered_json to_json(const io::Model& model, const Animation& animation) {
   const Surface& surface = animation.surface();
   const Animation::Bounds bounds = animation.bounds();
   ordered_json sequence = nullptr;
-  if (!model.cache.frames.empty()) {
-    sequence = {{"frames", model.cache.frames.size()}, {"fps", model.cache.frames_per_second}};
+  if (!model.cache.empty()) {
+    sequence = {{"frames", model.cache.size()}, {"fps", model.cache.frames_per_second()}};
   }
   return {{"path", model.path.string()},
           {"meshes", meshes_of(model, surface)},
@@ -282,10 +287,7 @@ std::string table(const ordered_json& info) {
 int run_info(Arguments& arguments) {
   arguments.common.apply();
   const SceneSettings scene = arguments.scene.settings();
-  io::ImportOptions options;
-  if (scene.model.metres_per_unit > 0) options.metres_per_unit = scene.model.metres_per_unit;
-  options.up = scene.model.up;
-  const io::Model model = io::import_model(scene.model.path, options);
+  const io::Model model = io::import_model(scene.model.path, import_options(scene));
   const Animation animation(model, {});
   ordered_json report = to_json(model, animation);
   if (!arguments.fabric.empty()) {

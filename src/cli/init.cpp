@@ -36,12 +36,17 @@ struct Arguments {
                    "The scene file to write; by default the model's name with .toml, here")
         ->type_name("SCENE.toml");
     app.add_flag("--overwrite", overwrite, "Replace a scene file that exists");
+    app.add_option("--limits", options.limits.factor,
+                   "Factor on what the model's file may ask for, as in a scene")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(1e-6, 1e6));
     app.add_flag("--keys-markdown", keys_markdown, "")
         ->group("");  // makes docs/scene.md; of no use to anybody else
   }
 
   CommonArguments common;
   std::string model, output;
+  io::ImportOptions options;
   bool overwrite = false, keys_markdown = false;
 };
 
@@ -119,7 +124,7 @@ int run_init(Arguments& arguments) {
     throw Error(ExitCode::no_output,
                 fmt::format("{}: stands there already; --overwrite replaces it", scene.string()));
   }
-  const io::Model model = io::import_model(arguments.model);
+  const io::Model model = io::import_model(arguments.model, arguments.options);
   const std::string text = scene_text(path_from_scene(arguments.model, scene), notes_on(model));
   // A name that TOML cannot hold is to fail here, not at the next command. The model is looked up through the
   // scene's folder; where that cannot be made, writing says why.

@@ -1,5 +1,7 @@
 #include "config/keys.h"
 
+#include <limits>
+
 namespace plisse::config {
 namespace {
 
@@ -33,6 +35,12 @@ auto output(Value OutputSettings::*value) {
   return member(&SceneSettings::output, value);
 }
 
+template <typename Value>
+auto limits(Value Limits::*value) {
+  return member(&SceneSettings::limits, value);
+}
+
+constexpr int most = std::numeric_limits<int>::max();
 constexpr Range azimuths{-360, 360};
 constexpr Range elevations{-90, 90};
 constexpr std::string_view degrees = "degrees";
@@ -51,6 +59,9 @@ const std::vector<Table>& tables() {
        "Three lights that turn with the camera: azimuths to the right of the view, elevations above it."},
       {"shading", "What the cloth looks like."},
       {"output", "The pictures."},
+      {"limits",
+       "What a model's file may ask for, so that a damaged one ends in an error instead of a machine that "
+       "swaps."},
   };
   return all;
 }
@@ -79,6 +90,9 @@ const std::vector<Key>& keys() {
        "takes the bind "
        "pose, else frame 1.",
        "--rest", "bind|frame:N|FILE"},
+      {"model", "cache", file_path(model(&ModelSettings::cache), {".mdd", ".pc2"}),
+       "A point cache that moves the model's vertices; its positions are in the model's own unit and axes.",
+       "--cache", "FILE"},
 
       {"wrinkles", "wavelength", length(wrinkles(&WrinkleSettings::wavelength), {1e-9, 1e9, "from the mesh"}),
        "Length of a wave in the rest pose.", "--wavelength", "L"},
@@ -189,6 +203,20 @@ const std::vector<Key>& keys() {
        "--background", "#rrggbb|transparent"},
       {"output", "ground", truth(output(&OutputSettings::ground)),
        "A floor with a contact shadow that runs into the backdrop."},
+
+      {"limits", "factor", number(limits(&Limits::factor), {1e-6, 1e6}), "Factor on all limits below.",
+       "--limits", "FACTOR"},
+      {"limits", "file_mib", whole(limits(&Limits::file_mib), 1, most), "Size of a file, MiB."},
+      {"limits", "memory_mib", whole(limits(&Limits::memory_mib), 64, most),
+       "Memory while a file is read, MiB."},
+      {"limits", "seconds", whole(limits(&Limits::seconds), 1, most), "Time while a file is read."},
+      {"limits", "vertices", whole(limits(&Limits::vertices), 3, most),
+       "Vertices of all meshes, as the file splits them."},
+      {"limits", "triangles", whole(limits(&Limits::triangles), 1, most), "Triangles of all meshes."},
+      {"limits", "bones", whole(limits(&Limits::bones), 0, most), "Bones of all skins."},
+      {"limits", "keys", whole(limits(&Limits::keys), 0, most), "Keys of all clips."},
+      {"limits", "texture_pixels", whole(limits(&Limits::texture_pixels), 0, most),
+       "Pixels of all textures."},
   };
   return all;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -408,6 +409,23 @@ Kind word_or_file(Member<std::string> value, std::vector<std::string> words) {
             value(settings) = path.string();
           },
           shown_text(value), true};
+}
+
+Kind file_path(Member<fs::path> value, std::vector<std::string> endings) {
+  return {"path", fmt::format("an existing file ending in {}; empty: none", either(endings)),
+          [=](SceneSettings& settings, const toml::node& node, const fs::path& folder) {
+            const std::string given = text_of(node);
+            const fs::path path = given.empty() ? fs::path() : resolved(folder, given);
+            std::string ending = path.extension().string();
+            std::transform(ending.begin(), ending.end(), ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            if (!given.empty() && !is_there(path))
+              throw Problem{fmt::format("there is no '{}'", path.string()), ""};
+            if (!given.empty() && std::find(endings.begin(), endings.end(), ending) == endings.end())
+              throw Problem{fmt::format("'{}' has another ending", path.string()), ""};
+            value(settings) = path;
+          },
+          [=](const SceneSettings& settings) { return quoted(read(value, settings).string()); }, true};
 }
 
 Kind frame_pattern(Member<std::string> value) {

@@ -69,6 +69,8 @@ Kind point(Member<glm::dvec3> value);
 Kind model_path(Member<std::filesystem::path> value);
 Kind rest_pose(Member<std::string> value);
 Kind word_or_file(Member<std::string> value, std::vector<std::string> words);
+// An existing file whose name ends in one of these; empty: none.
+Kind file_path(Member<std::filesystem::path> value, std::vector<std::string> endings);
 Kind frame_pattern(Member<std::string> value);
 
 // Words that stand for the values of an enumeration.

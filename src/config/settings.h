@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
+
 namespace plisse {
 
 enum class RelaxMode { descent, smooth };  // state over time, rule 3
@@ -24,6 +26,7 @@ struct ModelSettings {
   double metres_per_unit = 0;    // 0: the file's own
   std::string up;                // x | y | z; empty: the file's own
   std::string rest = "auto";     // auto | bind | frame:N | FILE
+  std::filesystem::path cache;   // an MDD or PC2 file over the model's mesh; empty: none
 };
 
 struct WrinkleSettings {
@@ -96,6 +99,7 @@ struct SceneSettings {
   LightSettings light;
   ShadingSettings shading;
   OutputSettings output;
+  Limits limits;
 };
 
 }  // namespace plisse

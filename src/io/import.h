@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/limits.h"
 #include "io/model.h"
 
 namespace plisse::io {
@@ -12,13 +13,16 @@ namespace plisse::io {
 struct ImportOptions {
   std::optional<double> metres_per_unit;  // overrides the file's own unit
   std::string up;                         // "x", "y", "z", or empty: as the file says
+  std::filesystem::path cache = {};       // MDD or PC2 over the model's mesh; empty: none
+  Limits limits = {};                     // of what the file may ask for
 };
 
-// Throws Error(bad_input) with file, what is wrong and what to do. What it returns has been validated.
+// Throws Error(bad_input) with file, what is wrong and what to do. What it returns has been validated. Files
+// are read in a process of their own (io/isolated_import.h), so that a damaged one cannot do harm.
 Model import_model(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // Throws Error(bad_input): no triangles, indices out of range, non-finite numbers, wrong counts, cyclic
-// nodes.
-void validate(const Model& model);
+// nodes, more of anything than the limits allow.
+void validate(const Model& model, const Limits& limits = {});
 
 }  // namespace plisse::io

@@ -5,6 +5,7 @@
 #include <assimp/postprocess.h>
 #include <fmt/format.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
@@ -12,11 +13,16 @@
 #include <cstdlib>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <new>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "io/collada_arrays.h"
 #include "io/import_assimp_parts.h"
 #include "io/import_place.h"
+#include "io/import_texture.h"
+#include "io/inside_folder.h"
+#include "io/read_model.h"
 
 namespace plisse::io {
 namespace {
@@ -104,22 +110,55 @@ void read_cameras(const AssimpScene& from, Model& model) {
   }
 }
 
+// Opens what a model file names beside itself, and nothing elsewhere (inside_folder.h).
+class FolderOnly : public Assimp::DefaultIOSystem {
+ public:
+  explicit FolderOnly(const std::filesystem::path& model) : model_(model) {}
+  bool Exists(const char* file) const override { return allowed(file) && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return allowed(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  bool allowed(const std::filesystem::path& file) const {
+    std::error_code ignored;
+    const std::filesystem::path absolute = std::filesystem::absolute(file, ignored);
+    if (file == model_ || !inside_folder(model_.parent_path(), absolute.string()).empty()) return true;
+    if (std::filesystem::exists(file, ignored)) warn_outside(model_, file);
+    return false;
+  }
+  std::filesystem::path model_;
+};
+
+// assimp's own words, made fit to print: one line of it, and what they mean where they are a program's.
+Error failure_of(const std::filesystem::path& path, std::string reason) {
+  // How assimp hands on that memory is exhausted, which the caller has limited.
+  if (reason.find("bad_alloc") != std::string::npos ||
+      reason.find("bad array new length") != std::string::npos)
+    throw std::bad_alloc();
+  for (char& c : reason) c = c == '\n' || c == '\r' ? ' ' : c;
+  if (reason.starts_with("No suitable reader found"))
+    reason = "its content is not of the kind that its name says, or is cut off";
+  return Error(ExitCode::bad_input, fmt::format("{}: cannot be read as a model: {}", path.string(),
+                                                reason.empty() ? "it holds no scene" : reason));
+}
+
 }  // namespace
 
 Model import_assimp(const std::filesystem::path& path, const ImportOptions& options) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new FolderOnly(path));  // which the importer owns
   // FBX pivots stay apart, to be put together by read_nodes: assimp's own way loses the geometric transforms
   // of skins.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   // Files with a skeleton and no mesh get a dummy body otherwise.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  if (kind_of(path) == FileKind::collada) check_collada_arrays(path);
+  note_reader("assimp");
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    const std::string reason = importer.GetErrorString();
-    throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read as a model: {}", path.string(),
-                                                 reason.empty() ? "it holds no scene" : reason));
-  }
+  note_reader("");
+  if (scene == nullptr || scene->mRootNode == nullptr) throw failure_of(path, importer.GetErrorString());
 
   Model model;
   model.path = path;

@@ -51,6 +51,7 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
 
   std::vector<std::vector<BoneWeight>> weights(mesh.positions.size());
   std::vector<bool> lost(mesh.positions.size(), false);
+  std::vector<int> in_file(mesh.positions.size(), 0);  // bones on a vertex, those without a node as well
   for (unsigned b = 0; b < source.mNumBones; ++b) {
     const aiBone& bone = *source.mBones[b];
     const auto node = from.node_ids.find(bone.mName.C_Str());
@@ -64,6 +65,7 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
       const aiVertexWeight& weight = bone.mWeights[w];
       if (weight.mVertexId >= weights.size() || !(weight.mWeight > 0) || !std::isfinite(weight.mWeight))
         continue;
+      ++in_file[weight.mVertexId];
       if (node == from.node_ids.end())
         lost[weight.mVertexId] = true;
       else
@@ -72,7 +74,7 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
     }
     if (node != from.node_ids.end()) mesh.bones.push_back({node->second, mat4(bone.mOffsetMatrix) * before});
   }
-  if (mesh.bones.empty()) return;
+  if (mesh.bones.empty() || weights.empty()) return;
 
   std::vector<std::size_t> orphans;
   for (std::size_t v = 0; v < weights.size(); ++v)
@@ -85,7 +87,7 @@ void read_bones(const AssimpScene& from, unsigned mesh_id, Mesh& mesh) {
     cut += of_vertex.size() > max_influences ? 1 : 0;
     unbound += of_vertex.empty() ? 1 : 0;
   }
-  mesh.file_max_influences = static_cast<int>(most);
+  mesh.file_max_influences = *std::max_element(in_file.begin(), in_file.end());
   if (cut > 0)
     log::warn_once(
         "influences " + from.path.string() + mesh.name,

@@ -213,8 +213,10 @@ ObjFile read_obj_file(const std::filesystem::path& path) {
   return ObjParser(path).parse();
 }
 
-Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<std::uint32_t>& sources) {
+Model import_obj(const std::filesystem::path& path, const ImportOptions& options) {
+  const ObjFile file = read_obj_file(path);
   Model model;
+  model.file_vertex_count = file.positions.size();
   model.path = file.path;
   model.metres_per_unit = options.metres_per_unit.value_or(1);
   model.up = options.up.empty() ? "y" : options.up;
@@ -234,7 +236,6 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
   std::map<std::pair<std::string, std::string>, std::size_t> mesh_ids;
   using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
   std::vector<std::map<Key, std::uint32_t>> vertex_ids;
-  std::vector<std::vector<std::uint32_t>> mesh_sources;
   for (std::size_t r = 0; r < file.runs.size(); ++r) {
     const ObjFile::Run& run = file.runs[r];
     const std::size_t end =
@@ -247,7 +248,6 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
       mesh.name = run.name.empty() ? file.path.stem().string() : run.name;
       mesh.material = material_id(run.material);
       vertex_ids.emplace_back();
-      mesh_sources.emplace_back();
       model.nodes[0].meshes.push_back(static_cast<int>(id));
     }
     Mesh& mesh = model.meshes[id];
@@ -258,7 +258,7 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
         if (fresh) {
           mesh.positions.emplace_back(
               world * glm::dvec4(file.positions[static_cast<std::size_t>(corner.position)], 1));
-          mesh_sources[id].push_back(static_cast<std::uint32_t>(corner.position));
+          mesh.file_vertices.push_back(static_cast<std::uint32_t>(corner.position));
           // A corner without uv or normal gets a blank, and the mesh loses the array where all are blank.
           mesh.uvs.push_back(corner.uv < 0 ? glm::vec2{0} : file.uvs[static_cast<std::size_t>(corner.uv)]);
           const glm::dvec3 normal = corner.normal < 0
@@ -285,14 +285,8 @@ Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<st
         mesh.normals.clear();
         break;
       }
-    sources.insert(sources.end(), mesh_sources[m].begin(), mesh_sources[m].end());
   }
   return model;
-}
-
-Model import_obj(const std::filesystem::path& path, const ImportOptions& options) {
-  std::vector<std::uint32_t> sources;
-  return model_of(read_obj_file(path), options, sources);
 }
 
 }  // namespace plisse::io

@@ -38,10 +38,6 @@ struct ObjFile {
 // and indices that point nowhere.
 ObjFile read_obj_file(const std::filesystem::path& path);
 
-// The file as a Model with one node; `sources` gets, mesh by mesh, the OBJ position that each vertex came
-// from.
-Model model_of(const ObjFile& file, const ImportOptions& options, std::vector<std::uint32_t>& sources);
-
 // A single OBJ: a static model.
 Model import_obj(const std::filesystem::path& path, const ImportOptions& options);
 

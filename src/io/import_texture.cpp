@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "base/log.h"
+#include "io/inside_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -20,28 +21,11 @@
 #define STBI_MAX_DIMENSIONS 16384  // OpenGL 4.5 guarantees this size of a texture
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // of fields that its memory reader never looks at
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
 namespace plisse::io {
-namespace {
-
-std::string percent_decoded(const std::string& text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto hex = [&](std::size_t at) { return std::isxdigit(static_cast<unsigned char>(text[at])) != 0; };
-    if (text[i] == '%' && i + 2 < text.size() && hex(i + 1) && hex(i + 2)) {
-      result += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      result += text[i] == '\\' ? '/' : text[i];
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
 std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string& why) {
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     why = bytes.empty() ? "it is empty" : "it is larger than 2 GB";
@@ -62,17 +46,26 @@ std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string&
   return image;
 }
 
+void warn_outside(const std::filesystem::path& model, const std::filesystem::path& file) {
+  log::warn_once(
+      "outside " + file.string(),
+      fmt::format("{}: names {}, which lies outside its folder and is not read; copy it into the folder",
+                  model.string(), file.string()));
+}
+
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name) {
   namespace fs = std::filesystem;
   std::string decoded = percent_decoded(name);
+  std::replace(decoded.begin(), decoded.end(), '\\', '/');
   if (decoded.starts_with("file://")) decoded.erase(0, 7);
   const fs::path folder = model.parent_path();
   const fs::path bare = fs::path(decoded).filename();
-  const std::array<fs::path, 5> candidates{folder / name, folder / decoded, folder / bare,
-                                           folder / "textures" / bare, folder / "Textures" / bare};
+  const std::array<fs::path, 5> candidates{name, decoded, bare, "textures" / bare, "Textures" / bare};
   for (const fs::path& candidate : candidates) {
     std::error_code error;
-    if (fs::is_regular_file(candidate, error)) return candidate;
+    if (!fs::is_regular_file(folder / candidate, error)) continue;
+    if (!inside_folder(folder, candidate.string()).empty()) return folder / candidate;
+    warn_outside(model, candidate);
   }
   return {};
 }

@@ -14,9 +14,12 @@ namespace plisse::io {
 // Decodes a picture file held in memory; nothing where it cannot be decoded, with the reason in `why`.
 std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string& why);
 
+// Says once that a file outside is not read, and what to do.
+void warn_outside(const std::filesystem::path& model, const std::filesystem::path& file);
+
 // Finds a texture that a model file names, although the path may be another machine's: as given, with / for
 // \ and %20 decoded, relative to the model's folder, then by its bare name there and in textures/. Empty if
-// not found.
+// not found; what is found outside the folder is passed over with a warning.
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name);
 
 // Adds the texture to model.textures, or finds it there under the same name and for the same use.

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "io/vertex_cache.h"
+
 namespace plisse::io {
 
 // 8 bits a channel, sRGB colour, straight alpha, rows from top to bottom; rgba.size() == 4·width·height.
@@ -75,6 +77,9 @@ struct Mesh {
   std::vector<Influences> influences;    // one per vertex where bones is not empty
   std::vector<MorphTarget> targets;
   int file_max_influences = 0;  // as found, before keeping eight
+  // The number that each vertex has in the file (OBJ, PLY), which point caches and sequences count by; empty
+  // where the reader does not know it.
+  std::vector<std::uint32_t> file_vertices;
 };
 
 struct Node {
@@ -110,14 +115,6 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-// Positions a frame in place of bones: a numbered sequence or a point cache. frames[f] runs over the vertices
-// of all meshes one after the other.
-struct VertexCache {
-  double frames_per_second = 24;
-  std::vector<std::vector<glm::dvec3>> frames;
-  std::vector<std::string> names;  // the file each frame came from, for messages
-};
-
 struct Camera {
   std::string name;
   int node = -1;
@@ -127,15 +124,16 @@ struct Camera {
 
 struct Model {
   std::filesystem::path path;
-  double metres_per_unit = 1;  // as applied: the file's, or the option's
-  std::string up = "y";        // likewise
+  double metres_per_unit = 1;           // as applied: the file's, or the option's
+  std::string up = "y";                 // likewise
+  std::uint64_t file_vertex_count = 0;  // of Mesh::file_vertices; 0 where they are not known
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Clip> clips;
   std::vector<Camera> cameras;
-  VertexCache cache;  // frames is empty where there is none
+  VertexCache cache;  // takes the place of bones, nodes and targets; empty where there is none
 };
 
 }  // namespace plisse::io

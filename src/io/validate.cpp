@@ -35,9 +35,10 @@ bool finite(const glm::dmat4& m) {
 
 class Check {
  public:
-  explicit Check(const Model& model) : model_(model) {}
+  Check(const Model& model, const Limits& limits) : model_(model), limits_(limits) {}
 
   void run() const {
+    limits();
     std::size_t triangles = 0;
     for (std::size_t m = 0; m < model_.materials.size(); ++m) material(m);
     for (const Texture& item : model_.textures) texture(item);
@@ -110,6 +111,12 @@ class Check {
       if (item.triangles[i] >= vertices)
         fail(fmt::format("{}triangle {} names vertex {}, of {}", name, i / 3, item.triangles[i], vertices));
     all_finite(item.positions, name + "position");
+    // Damaged files turn into numbers of any size. The passes square lengths in single precision, which ends
+    // at 1.8e19.
+    constexpr double far = 1e18;
+    for (std::size_t v = 0; v < vertices; ++v)
+      if (glm::any(glm::greaterThan(glm::abs(item.positions[v]), glm::dvec3(far))))
+        fail(fmt::format("{}vertex {} lies over {:g} units from the origin", name, v, far));
     all_finite(item.normals, name + "normal");
     all_finite(item.uvs, name + "uv");
     count(item.normals, vertices, name + "normals");
@@ -126,6 +133,10 @@ class Check {
                          target.position_deltas.size(), vertices));
       all_finite(target.position_deltas, name + "morph target '" + target.name + "': delta");
     }
+    count(item.file_vertices, vertices, name + "numbers in the file");
+    for (const std::uint32_t number : item.file_vertices)
+      if (number >= model_.file_vertex_count)
+        fail(fmt::format("{}a vertex has number {} in a file of {}", name, number, model_.file_vertex_count));
     bones(item, name);
   }
 
@@ -210,25 +221,50 @@ class Check {
     }
   }
 
+  // The first frame; the others are read when they are asked for, by what checks that all are alike.
   void cache() const {
-    if (model_.cache.frames.empty()) return;
+    if (model_.cache.empty()) return;
     std::size_t vertices = 0;
     for (const Mesh& item : model_.meshes) vertices += item.positions.size();
-    if (!(model_.cache.frames_per_second > 0) || !finite(model_.cache.frames_per_second))
-      fail(fmt::format("a cache of {} frames a second", model_.cache.frames_per_second));
-    for (std::size_t f = 0; f < model_.cache.frames.size(); ++f)
-      if (model_.cache.frames[f].size() != vertices)
-        fail(fmt::format("frame {} of the cache has {} positions for {} vertices", f + 1,
-                         model_.cache.frames[f].size(), vertices));
+    if (!(model_.cache.frames_per_second() > 0) || !finite(model_.cache.frames_per_second()))
+      fail(fmt::format("a cache of {} frames a second", model_.cache.frames_per_second()));
+    if (model_.cache.frame(0)->size() != vertices)
+      fail(fmt::format("frame 1 of the cache has {} positions for {} vertices", model_.cache.frame(0)->size(),
+                       vertices));
+  }
+
+  // First of all: what follows costs time by these counts.
+  void limits() const {
+    std::uint64_t vertices = 0, triangles = 0, bones = 0, keys = 0, pixels = 0;
+    for (const Mesh& item : model_.meshes) {
+      vertices += item.positions.size();
+      triangles += item.triangles.size() / 3;
+      bones += item.bones.size();
+    }
+    for (const Clip& item : model_.clips)
+      for (const Channel& channel : item.channels)
+        keys += channel.translation.times.size() + channel.rotation.times.size() +
+                channel.scale.times.size() + channel.morph_weights.times.size();
+    for (const Texture& item : model_.textures) pixels += item.image.rgba.size() / 4;
+    const auto check = [&](int Limits::*limit, const char* key, std::uint64_t found, const char* what) {
+      const std::string wrong = over_limit(limits_, limit, key, found, what);
+      if (!wrong.empty()) fail(wrong);
+    };
+    check(&Limits::vertices, "vertices", vertices, "vertices");
+    check(&Limits::triangles, "triangles", triangles, "triangles");
+    check(&Limits::bones, "bones", bones, "bones");
+    check(&Limits::keys, "keys", keys, "keys of its clips");
+    check(&Limits::texture_pixels, "texture_pixels", pixels, "pixels of textures");
   }
 
   const Model& model_;
+  const Limits& limits_;
 };
 
 }  // namespace
 
-void validate(const Model& model) {
-  Check(model).run();
+void validate(const Model& model, const Limits& limits) {
+  Check(model, limits).run();
 }
 
 }  // namespace plisse::io

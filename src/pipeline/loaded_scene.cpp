@@ -17,15 +17,9 @@
 namespace plisse::pipeline {
 namespace {
 
-AnimationChoice choice_of(const ModelSettings& model) {
-  return {model.clip, model.frames_per_second, model.rest, model.loop};
-}
-
-io::ImportOptions options_of(const ModelSettings& model) {
-  io::ImportOptions options;
-  if (model.metres_per_unit > 0) options.metres_per_unit = model.metres_per_unit;
-  options.up = model.up;
-  return options;
+AnimationChoice choice_of(const SceneSettings& scene) {
+  const ModelSettings& model = scene.model;
+  return {model.clip, model.frames_per_second, model.rest, model.loop, scene.limits};
 }
 
 glm::dvec3 linear(const glm::vec3& srgb) {
@@ -60,10 +54,27 @@ void add(Hash& hash, const glm::dmat4& m) {
 
 }  // namespace
 
+}  // namespace plisse::pipeline
+
+namespace plisse {
+
+io::ImportOptions import_options(const SceneSettings& scene) {
+  io::ImportOptions options;
+  if (scene.model.metres_per_unit > 0) options.metres_per_unit = scene.model.metres_per_unit;
+  options.up = scene.model.up;
+  options.cache = scene.model.cache;
+  options.limits = scene.limits;
+  return options;
+}
+
+}  // namespace plisse
+
+namespace plisse::pipeline {
+
 LoadedScene::LoadedScene(const SceneSettings& given)
     : settings(given),
-      model(io::import_model(given.model.path, options_of(given.model))),
-      animation(model, choice_of(given.model)),
+      model(io::import_model(given.model.path, import_options(given))),
+      animation(model, choice_of(given)),
       profile(passes::make_profile(given.wrinkles.profile)) {
   select_parts(animation.surface(), settings.wrinkles);
   if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = default_wavelength(surface());

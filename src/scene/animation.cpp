@@ -9,7 +9,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -59,9 +61,9 @@ int choose_clip(const io::Model& model, const std::string& choice) {
 
 Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames_per_second) {
   Timeline timeline;
-  if (!model.cache.frames.empty()) {
-    timeline.frames_per_second = frames_per_second > 0 ? frames_per_second : model.cache.frames_per_second;
-    timeline.frame_count = static_cast<int>(model.cache.frames.size());
+  if (!model.cache.empty()) {
+    timeline.frames_per_second = frames_per_second > 0 ? frames_per_second : model.cache.frames_per_second();
+    timeline.frame_count = static_cast<int>(model.cache.size());
     timeline.duration = (timeline.frame_count - 1) / timeline.frames_per_second;
     return timeline;
   }
@@ -190,7 +192,9 @@ struct Animation::Data {
     Pose pose;
     if (!cache.empty()) {
       pose.palette.assign(1, glm::dmat4{1});
-      pose.cache = cache[static_cast<std::size_t>(frame - 1)];
+      const io::VertexCache::Frame positions = cache.frame(static_cast<std::size_t>(frame - 1));
+      pose.cache.reserve(cache_index.size());
+      for (const std::uint32_t v : cache_index) pose.cache.push_back((*positions)[v]);
       return pose;
     }
     const double time = timeline.time(frame);
@@ -234,8 +238,9 @@ struct Animation::Data {
   Surface surface;
   std::vector<PaletteEntry> palette;
   std::vector<MorphSource> targets;
-  std::vector<std::vector<glm::dvec3>> cache;  // per frame, welded order
-  Pose last;                                   // finite, whatever the clip holds
+  io::VertexCache cache;
+  std::vector<std::uint32_t> cache_index;  // per welded vertex, into a frame of the cache
+  Pose last;                               // finite, whatever the clip holds
 };
 
 namespace {
@@ -246,29 +251,49 @@ std::vector<double> frame_times(const Timeline& timeline) {
   return times;
 }
 
+// In a cache layers of cloth may touch in the first frame and part later: one vertex is what stays together.
+// A cache is gone through frame by frame, for it may not fit into memory: what the first frame joins is
+// watched, and joined anew without the pairs that part, until none does.
 Weld weld_instances(const Instances& instances, const io::VertexCache& cache) {
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const double tolerance = weld_tolerance(instances.vertices.positions);
-  if (cache.frames.empty()) return weld(instances.vertices, tolerance);
-  // In a cache layers of cloth may touch in the first frame and part later: one vertex is what stays
-  // together.
-  return weld(instances.vertices, tolerance, [&](std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t i = instances.cache_index[a];
-    const std::uint32_t j = instances.cache_index[b];
-    return std::all_of(cache.frames.begin(), cache.frames.end(), [&](const std::vector<glm::dvec3>& frame) {
-      return !(glm::distance(frame[i], frame[j]) > tolerance);
+  if (cache.empty()) return weld(instances.vertices, tolerance);
+  std::set<Pair> watched, parted;  // first and later vertex
+  while (true) {
+    const Weld result = weld(instances.vertices, tolerance, [&](std::uint32_t a, std::uint32_t b) {
+      return !parted.contains({a, b});
     });
-  });
+    std::vector<Pair> fresh;
+    for (std::uint32_t v = 0; v < result.welded.size(); ++v) {
+      const Pair pair(result.representative[result.welded[v]], v);
+      if (pair.first != v && watched.insert(pair).second) fresh.push_back(pair);
+    }
+    const std::size_t before = parted.size();
+    // Once at least, pairs or none: reading a frame is what checks it.
+    for (std::size_t f = 0; f < cache.size() && (before == 0 || !fresh.empty()); ++f) {
+      const io::VertexCache::Frame frame = cache.frame(f);
+      for (const Pair& pair : fresh)
+        if (glm::distance((*frame)[instances.cache_index[pair.first]],
+                          (*frame)[instances.cache_index[pair.second]]) > tolerance)
+          parted.insert(pair);
+    }
+    if (parted.size() == before) return result;
+  }
 }
 
 // Vertices of another file in the order of this model's, placed in the world.
 std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::filesystem::path& path,
-                                          std::size_t expected) {
-  // OBJ states neither unit nor up axis: it is taken to be in the model's own.
+                                          std::size_t expected, const Limits& limits) {
+  // OBJ and PLY state neither unit nor up axis: they are taken to be in the model's own.
   io::ImportOptions options;
+  options.limits = limits;
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".obj") options = {model.metres_per_unit, model.up};
+  if (extension == ".obj" || extension == ".ply") {
+    options.metres_per_unit = model.metres_per_unit;
+    options.up = model.up;
+  }
   const io::Model other = io::import_model(path, options);
   const Rig rig(other, nullptr);
   const Instances instances = gather_instances(other, rig, {0.0});
@@ -283,8 +308,8 @@ std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::fil
 }  // namespace
 
 Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
-  const int clip = model.cache.frames.empty() ? choose_clip(model, choice.clip) : -1;
-  if (!model.cache.frames.empty() && !choice.clip.empty())
+  const int clip = model.cache.empty() ? choose_clip(model, choice.clip) : -1;
+  if (!model.cache.empty() && !choice.clip.empty())
     throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but a sequence has no clips",
                                                  model.path.string(), choice.clip));
   data_ = std::make_unique<Data>(model, choice,
@@ -300,11 +325,9 @@ Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
   data.surface = build_surface(instances, weld, normals);
   data.palette = std::move(instances.palette);
   data.targets = std::move(instances.targets);
-  for (const std::vector<glm::dvec3>& frame : model.cache.frames) {
-    std::vector<glm::dvec3>& welded = data.cache.emplace_back();
-    welded.reserve(weld.representative.size());
-    for (const std::uint32_t v : weld.representative) welded.push_back(frame[instances.cache_index[v]]);
-  }
+  data.cache = model.cache;
+  if (!data.cache.empty())
+    for (const std::uint32_t v : weld.representative) data.cache_index.push_back(instances.cache_index[v]);
 
   // The pose that holds until the clip has given a finite one: the bind pose.
   data.last.palette.assign(data.palette.empty() ? 1 : data.palette.size(), glm::dmat4{1});
@@ -337,7 +360,7 @@ Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
     surface.rest = posed(surface, rest);
   } else {
     const std::vector<glm::dvec3> positions =
-        positions_of_file(model, choice.rest, instances.vertices.positions.size());
+        positions_of_file(model, choice.rest, instances.vertices.positions.size(), choice.limits);
     for (std::size_t v = 0; v < surface.rest.size(); ++v) surface.rest[v] = positions[weld.representative[v]];
   }
   set_render_normals(surface, normals);

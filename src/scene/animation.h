@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
 #include "io/model.h"
 #include "mesh/surface.h"
 
@@ -32,6 +33,7 @@ struct AnimationChoice {
   double frames_per_second = 0;  // 0: 24 (a vertex cache keeps its own rate)
   std::string rest = "auto";     // auto | bind | frame:N | path of a model with the same vertices
   bool loop = false;
+  Limits limits = {};  // of a file that `rest` names
 };
 
 class Animation {

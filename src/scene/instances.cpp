@@ -106,7 +106,7 @@ class Gatherer {
   }
 
   Instances run() {
-    const bool cached = !model_.cache.frames.empty();
+    const bool cached = !model_.cache.empty();
     if (cached) result_.palette.push_back({});
     for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
       const io::Node& node = model_.nodes[n];

@@ -59,6 +59,7 @@ TEST(Validate, StopsEachBrokenThing) {
       {"multiple of three", [](Model& m) { m.meshes[0].triangles.pop_back(); }},
       {"names vertex 3, of 3", [](Model& m) { m.meshes[0].triangles[1] = 3; }},
       {"position 1 is not finite", [](Model& m) { m.meshes[0].positions[1].y = static_cast<double>(nan); }},
+      {"1e+18 units from the origin", [](Model& m) { m.meshes[0].positions[1].y = 2e18; }},
       {"normal 2 is not finite", [](Model& m) { m.meshes[0].normals[2].y = nan; }},
       {"uv 0 is not finite", [](Model& m) { m.meshes[0].uvs[0].x = nan; }},
       {"uvs: 2 of them", [](Model& m) { m.meshes[0].uvs.pop_back(); }},
@@ -98,7 +99,8 @@ TEST(Validate, StopsEachBrokenThing) {
        [](Model& m) {
          m.textures.push_back({"t", {2, 2, std::vector<std::uint8_t>(12)}});
        }},
-      {"frame 1 of the cache", [](Model& m) { m.cache.frames.resize(1); }},
+      {"frame 1 of the cache",
+       [](Model& m) { m.cache = VertexCache(std::vector<std::vector<glm::dvec3>>(1), 24); }},
       {"camera 'eye'",
        [](Model& m) {
          m.cameras.push_back({"eye", 2, 1});

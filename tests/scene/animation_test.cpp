@@ -246,9 +246,11 @@ TEST(Animation, CacheKeepsVerticesThatPartLater) {
   model.nodes[0].meshes = {0, 1};
   std::vector<glm::dvec3> frame = model.meshes[0].positions;
   frame.insert(frame.end(), second.positions.begin(), second.positions.end());
-  model.cache.frames = {frame, frame};
+  model.cache = io::VertexCache({frame, frame}, 24);
   EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 4U);
-  model.cache.frames[1][7].z += 0.5;
+  std::vector<glm::dvec3> parted = frame;
+  parted[7].z += 0.5;
+  model.cache = io::VertexCache({frame, parted}, 24);
   Animation animation(model, {});
   EXPECT_EQ(animation.surface().vertex_count(), 5U);
   EXPECT_EQ(animation.timeline().frame_count, 2);

@@ -1,4 +1,4 @@
-// Numbered OBJ files as one model with a vertex cache: a pattern (drape_####.obj, drape_%04d.obj,
+// Numbered OBJ or PLY files as one model with a vertex cache: a pattern (drape_####.obj, drape_%04d.ply,
 // drape_{frame:04}.obj) or the folder that holds them. Frame 1 is the lowest number.
 #pragma once
 
@@ -17,8 +17,9 @@ bool is_sequence_pattern(const std::filesystem::path& path);
 // the lowest and the highest number is missing (named), and where a folder holds several sequences (named).
 std::vector<std::filesystem::path> sequence_files(const std::filesystem::path& pattern_or_folder);
 
-// Faces, uv, normals and materials come from the first file. Throws Error(bad_input), naming the file, where
-// a later one has other counts or other faces.
-Model import_obj_sequence(const std::vector<std::filesystem::path>& files, const ImportOptions& options);
+// The frames of a model that was read from the first of the files. Reading one throws Error(bad_input),
+// naming the file, where it has other vertices or other faces than the first.
+VertexCache sequence_cache(const Model& model, const std::vector<std::filesystem::path>& files,
+                           const Limits& limits);
 
 }  // namespace plisse::io

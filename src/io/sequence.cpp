@@ -1,5 +1,5 @@
-// Numbered OBJ files (see obj_sequence.h).
-#include "io/obj_sequence.h"
+// Numbered OBJ or PLY files (see sequence.h).
+#include "io/sequence.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,8 +15,11 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "io/import_obj.h"
 #include "io/import_place.h"
+#include "io/import_ply.h"
+#include "io/read_model.h"
 
 namespace plisse::io {
 namespace {
@@ -83,11 +86,15 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The one sequence of OBJ files that a folder holds.
+bool is_ply(const fs::path& path) {
+  return lower(path.extension().string()) == ".ply";
+}
+
+// The one sequence of OBJ or PLY files that a folder holds.
 Pattern pattern_of_folder(const fs::path& folder) {
   std::set<Pattern> patterns;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (lower(entry.path().extension().string()) != ".obj") continue;
+    if (lower(entry.path().extension().string()) != ".obj" && !is_ply(entry.path())) continue;
     const std::string stem = entry.path().stem().string();
     const std::size_t digits = stem.size() - std::min(stem.find_last_not_of("0123456789") + 1, stem.size());
     if (digits == 0) continue;
@@ -101,9 +108,9 @@ Pattern pattern_of_folder(const fs::path& folder) {
     patterns.insert(pattern);
   }
   if (patterns.empty())
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("{}: a folder without numbered OBJ files (such as drape_0001.obj)", folder.string()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: a folder without numbered OBJ or PLY files (such as drape_0001.obj)",
+                            folder.string()));
   if (patterns.size() > 1) {
     std::vector<std::string> names;
     for (const Pattern& pattern : patterns)
@@ -114,14 +121,77 @@ Pattern pattern_of_folder(const fs::path& folder) {
   return *patterns.begin();
 }
 
-bool same_faces(const ObjFile& a, const ObjFile& b) {
-  return std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
-                    [](const auto& left, const auto& right) {
-                      for (std::size_t c = 0; c < 3; ++c)
-                        if (left[c].position != right[c].position) return false;
-                      return true;
-                    });
+// What the frames of a sequence have in common or not.
+struct FileMesh {
+  std::vector<glm::dvec3> positions;
+  std::size_t triangles = 0;
+  std::string faces;  // fingerprint of which vertices they join
+};
+
+FileMesh read_mesh(const fs::path& path) {
+  FileMesh mesh;
+  Hash hash;
+  const auto take = [&](const auto& triangles, const auto& vertex_of) {
+    mesh.triangles = triangles.size();
+    for (const auto& triangle : triangles)
+      for (const auto& corner : triangle) hash.add(vertex_of(corner));
+  };
+  if (is_ply(path)) {
+    PlyFile file = read_ply_file(path);
+    take(file.triangles, [](std::uint32_t corner) { return corner; });
+    mesh.positions = std::move(file.positions);
+  } else {
+    ObjFile file = read_obj_file(path);
+    take(file.triangles, [](const ObjFile::Corner& corner) { return corner.position; });
+    mesh.positions = std::move(file.positions);
+  }
+  mesh.faces = hash.hex();
+  return mesh;
 }
+
+class SequenceFrames : public FrameSource {
+ public:
+  SequenceFrames(const Model& model, std::vector<fs::path> files, const Limits& limits)
+      : files_(std::move(files)), limits_(limits), world_(file_to_world(model.up, model.metres_per_unit)) {
+    for (const Mesh& mesh : model.meshes)
+      sources_.insert(sources_.end(), mesh.file_vertices.begin(), mesh.file_vertices.end());
+    FileMesh first = read_mesh(files_.front());
+    first_ = {{}, first.triangles, std::move(first.faces)};
+    vertices_ = first.positions.size();
+  }
+
+  std::size_t count() const override { return files_.size(); }
+
+  std::vector<glm::dvec3> read(std::size_t frame) const override {
+    const fs::path& path = files_.at(frame);
+    check_model_file(path, limits_);
+    const FileMesh mesh = read_mesh(path);
+    if (mesh.positions.size() != vertices_ || mesh.triangles != first_.triangles)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: {} vertices and {} triangles, but {} has {} and {}; a sequence must keep its mesh",
+                      path.string(), mesh.positions.size(), mesh.triangles, files_.front().string(),
+                      vertices_, first_.triangles));
+    if (mesh.faces != first_.faces)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: its faces join other vertices than those of {}; a sequence must keep its mesh",
+                      path.string(), files_.front().string()));
+    std::vector<glm::dvec3> positions;
+    positions.reserve(sources_.size());
+    for (const std::uint32_t source : sources_)
+      positions.emplace_back(world_ * glm::dvec4(mesh.positions.at(source), 1));
+    return positions;
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  Limits limits_;
+  glm::dmat4 world_;
+  std::vector<std::uint32_t> sources_;  // number in the file of each vertex of the model
+  FileMesh first_;                      // without positions
+  std::size_t vertices_ = 0;
+};
 
 }  // namespace
 
@@ -168,31 +238,8 @@ std::vector<fs::path> sequence_files(const fs::path& pattern_or_folder) {
   return result;
 }
 
-Model import_obj_sequence(const std::vector<fs::path>& files, const ImportOptions& options) {
-  const ObjFile first = read_obj_file(files.at(0));
-  std::vector<std::uint32_t> sources;
-  Model model = model_of(first, options, sources);
-  const glm::dmat4 world = file_to_world(model.up, model.metres_per_unit);
-  for (const fs::path& path : files) {
-    const ObjFile file = &path == &files.front() ? first : read_obj_file(path);
-    if (file.positions.size() != first.positions.size() || file.triangles.size() != first.triangles.size())
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format("{}: {} vertices and {} triangles, but {} has {} and {}; a sequence must keep its mesh",
-                      path.string(), file.positions.size(), file.triangles.size(), first.path.string(),
-                      first.positions.size(), first.triangles.size()));
-    if (!same_faces(file, first))
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format("{}: its faces join other vertices than those of {}; a sequence must keep its mesh",
-                      path.string(), first.path.string()));
-    std::vector<glm::dvec3>& frame = model.cache.frames.emplace_back();
-    frame.reserve(sources.size());
-    for (const std::uint32_t source : sources)
-      frame.emplace_back(world * glm::dvec4(file.positions[source], 1));
-    model.cache.names.push_back(path.string());
-  }
-  return model;
+VertexCache sequence_cache(const Model& model, const std::vector<fs::path>& files, const Limits& limits) {
+  return VertexCache(std::make_shared<SequenceFrames>(model, files, limits), 24);
 }
 
 }  // namespace plisse::io

@@ -1,5 +1,5 @@
-// OBJ files and numbered sequences of them, written here.
-#include "io/obj_sequence.h"
+// OBJ and PLY files and numbered sequences of them, written here.
+#include "io/sequence.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,10 @@ class ObjTest : public testing::Test {
   }
 
   std::string import_error(const fs::path& path) const {
-    return error_of([&] { import_model(path); });
+    return error_of([&] {
+      const Model model = import_model(path);
+      for (std::size_t f = 0; f < model.cache.size(); ++f) model.cache.frame(f);
+    });
   }
 
   fs::path folder_;
@@ -118,17 +121,17 @@ TEST_F(ObjTest, SequenceByEveryNameForIt) {
   for (const fs::path& path :
        {folder_, folder_ / "cloth_####.obj", folder_ / "cloth_%04d.obj", folder_ / "cloth_{frame:04}.obj"}) {
     const Model model = import_model(path);
-    ASSERT_EQ(model.cache.frames.size(), 4U) << path;
+    ASSERT_EQ(model.cache.size(), 4U) << path;
     for (std::size_t f = 0; f < 4; ++f)
-      for (const glm::dvec3& p : model.cache.frames[f]) EXPECT_EQ(p.z, static_cast<double>(f) + 8);
+      for (const glm::dvec3& p : *model.cache.frame(f)) EXPECT_EQ(p.z, static_cast<double>(f) + 8);
     EXPECT_EQ(model.meshes[0].uvs.size(), 4U);
   }
 }
 
 TEST_F(ObjTest, SequenceWithoutLeadingZerosCountsAsNumbers) {
   for (int n = 9; n <= 10; ++n) write(fmt::format("{}.obj", n), square(n));
-  EXPECT_EQ(import_model(folder_).cache.frames[0][0].z, 9);
-  EXPECT_EQ(import_model(folder_ / "#.obj").cache.frames.size(), 2U);
+  EXPECT_EQ(import_model(folder_).cache.frame(0)->at(0).z, 9);
+  EXPECT_EQ(import_model(folder_ / "#.obj").cache.size(), 2U);
 }
 
 TEST_F(ObjTest, SequenceErrorsNameTheFile) {
@@ -143,7 +146,7 @@ TEST_F(ObjTest, SequenceErrorsNameTheFile) {
   EXPECT_THAT(import_error(folder_), AllOf(HasSubstr("c_##.obj"), HasSubstr("d_#.obj")));
   EXPECT_THAT(import_error(folder_ / "x_##.obj"), HasSubstr("no file fits"));
   fs::create_directory(folder_ / "empty");
-  EXPECT_THAT(import_error(folder_ / "empty"), HasSubstr("without numbered OBJ files"));
+  EXPECT_THAT(import_error(folder_ / "empty"), HasSubstr("without numbered OBJ or PLY files"));
 }
 
 }  // namespace

@@ -1,0 +1,206 @@
+// MDD: big-endian; int32 frames, int32 points, float times[frames] in seconds, then float
+// xyz[frames][points]. PC2: little-endian; "POINTCACHE2\0", int32 version 1, int32 points, float first frame,
+// float frames a sample, int32 samples, then float xyz[samples][points].
+#include "io/point_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <mutex>
+#include <span>
+#include <string_view>
+
+#include "base/error.h"
+#include "io/import_place.h"
+
+namespace plisse::io {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+constexpr double default_frames_per_second = 24;
+
+struct Layout {
+  std::uint64_t points = 0, frames = 0;
+  std::uint64_t start = 0;  // of the first position, bytes
+  double frames_per_second = default_frames_per_second;
+  bool big_endian = false;
+};
+
+std::uint32_t word_of(const char* bytes, bool big_endian) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes, sizeof word);
+  return big_endian ? __builtin_bswap32(word) : word;
+}
+
+float float_of(const char* bytes, bool big_endian) {
+  return std::bit_cast<float>(word_of(bytes, big_endian));
+}
+
+std::string lower_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+class File {
+ public:
+  explicit File(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+      throw Error(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
+    size_ = std::filesystem::file_size(path, error);
+    stream_.open(path, std::ios::binary);
+    if (error || !stream_) throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read", path.string()));
+  }
+
+  std::uint64_t size() const { return size_; }
+
+  void read(std::uint64_t at, std::span<char> bytes) {
+    std::lock_guard lock(mutex_);
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(at));
+    stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (stream_.gcount() != static_cast<std::streamsize>(bytes.size())) fail("ends early");
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ExitCode::bad_input, fmt::format("{}: {}", path_.string(), what));
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  std::uint64_t size_ = 0;
+  std::mutex mutex_;
+};
+
+Layout pc2_layout(File& file) {
+  std::array<char, 32> head{};
+  if (file.size() < head.size()) file.fail("too short for a PC2 point cache");
+  file.read(0, head);
+  if (std::memcmp(head.data(), "POINTCACHE2", 12) != 0)
+    file.fail("not a PC2 point cache: it does not begin with POINTCACHE2");
+  if (const std::uint32_t version = word_of(&head[12], false); version != 1)
+    file.fail(fmt::format("a PC2 point cache of version {}; this program reads version 1", version));
+  const auto step = static_cast<double>(float_of(&head[24], false));
+  if (!(step > 0) || !std::isfinite(step))
+    file.fail(fmt::format("a PC2 point cache with a sample every {} frames", step));
+  return {word_of(&head[16], false), word_of(&head[28], false), head.size(), default_frames_per_second / step,
+          false};
+}
+
+Layout mdd_layout(File& file) {
+  std::array<char, 8> head{};
+  if (file.size() < head.size()) file.fail("too short for an MDD point cache");
+  file.read(0, head);
+  Layout layout{word_of(&head[4], true), word_of(head.data(), true), 0, default_frames_per_second, true};
+  layout.start = head.size() + 4 * layout.frames;
+  if (layout.frames > 1 && layout.start <= file.size()) {
+    std::array<char, 4> first{}, last{};
+    file.read(head.size(), first);
+    file.read(layout.start - 4, last);
+    const double duration =
+        static_cast<double>(float_of(last.data(), true)) - static_cast<double>(float_of(first.data(), true));
+    // Some writers leave the times 0: then the default rate stands.
+    if (duration > 0 && std::isfinite(duration))
+      layout.frames_per_second = static_cast<double>(layout.frames - 1) / duration;
+  }
+  return layout;
+}
+
+class PointFrames : public FrameSource {
+ public:
+  PointFrames(const std::filesystem::path& path, const Model& model) : file_(path) {
+    const std::string ending = lower_ending(path);
+    if (ending != ".mdd" && ending != ".pc2") file_.fail("not a point cache this program reads: MDD or PC2");
+    layout_ = ending == ".pc2" ? pc2_layout(file_) : mdd_layout(file_);
+    if (layout_.frames == 0) file_.fail("a point cache without frames");
+    find_places(model);
+    // After this 12·points·frames cannot run over: points is a mesh's, frames has 32 bits.
+    if (layout_.points != expected_)
+      file_.fail(fmt::format("{} points a frame, but {} has {} vertices", layout_.points, model.path.string(),
+                             expected_));
+    const std::uint64_t whole = layout_.start + 12 * layout_.points * layout_.frames;
+    if (file_.size() < whole)
+      file_.fail(fmt::format("cut off: {} frames of {} points take {} bytes, it has {}", layout_.frames,
+                             layout_.points, whole, file_.size()));
+  }
+
+  double frames_per_second() const { return layout_.frames_per_second; }
+  std::size_t count() const override { return static_cast<std::size_t>(layout_.frames); }
+
+  std::vector<glm::dvec3> read(std::size_t frame) const override {
+    std::vector<char> bytes(12 * static_cast<std::size_t>(layout_.points));
+    file_.read(layout_.start + bytes.size() * frame, bytes);
+    std::vector<glm::dvec3> positions;
+    positions.reserve(places_.size());
+    for (const Place& place : places_) {
+      const char* at = &bytes[12 * std::size_t{place.number}];
+      glm::dvec4 point(0, 0, 0, 1);
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] = static_cast<double>(float_of(at + 4 * axis, layout_.big_endian));
+      positions.emplace_back(matrices_[place.mesh] * point);
+    }
+    return positions;
+  }
+
+ private:
+  // Where a vertex of the model comes from.
+  struct Place {
+    std::uint32_t number, mesh;
+  };
+
+  void find_places(const Model& model) {
+    std::vector<glm::dmat4> world;
+    std::vector<int> uses(model.meshes.size(), 0);
+    matrices_.assign(model.meshes.size(), glm::dmat4{1});
+    for (const Node& node : model.nodes) {
+      world.push_back(node.parent < 0 ? node.local
+                                      : world[static_cast<std::size_t>(node.parent)] * node.local);
+      for (const int mesh : node.meshes) {
+        matrices_[static_cast<std::size_t>(mesh)] = world.back();
+        if (++uses[static_cast<std::size_t>(mesh)] > 1)
+          file_.fail(fmt::format("mesh '{}' of {} stands in several places; a point cache moves one",
+                                 model.meshes[static_cast<std::size_t>(mesh)].name, model.path.string()));
+      }
+    }
+    // Whoever numbers vertices has also put them into the world (model.h).
+    const bool numbered = model.file_vertex_count > 0;
+    const std::string ending = lower_ending(model.path);
+    if (!numbered && ending != ".glb" && ending != ".gltf")
+      file_.fail(fmt::format(
+          "{} does not keep the numbers that vertices had where it was exported; export the mesh as "
+          "OBJ or PLY, or the animation with it",
+          model.path.string()));
+    expected_ = model.file_vertex_count;
+    for (std::uint32_t m = 0; m < model.meshes.size(); ++m) {
+      const Mesh& mesh = model.meshes[m];
+      if (numbered) matrices_[m] = file_to_world(model.up, model.metres_per_unit);
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        places_.push_back({numbered ? mesh.file_vertices[v] : static_cast<std::uint32_t>(expected_ + v), m});
+      if (!numbered) expected_ += mesh.positions.size();
+    }
+  }
+
+  mutable File file_;
+  Layout layout_;
+  std::uint64_t expected_ = 0;
+  std::vector<Place> places_;
+  std::vector<glm::dmat4> matrices_;  // of each mesh: cache → world
+};
+
+}  // namespace
+
+VertexCache read_point_cache(const std::filesystem::path& path, const Model& model) {
+  const auto frames = std::make_shared<const PointFrames>(path, model);
+  return VertexCache(frames, frames->frames_per_second());
+}
+
+}  // namespace plisse::io
