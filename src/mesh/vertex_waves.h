@@ -6,13 +6,16 @@
 
 namespace plisse {
 
-// All of length V.
+// All of length V, but for what may be empty.
 struct VertexWaves {
   std::vector<double> wavelength;  // W, metres of the rest pose, > 0
   std::vector<double> mask;        // 0…1 times the strength; multiplies h
   // D, in wavelengths, a vector of the rest pose: k·D turns are added to the phase when the wave is drawn. A
   // vector, since k's sign is any: turned over, the phase counts the other way, and so must what is added.
   std::vector<glm::dvec3> wander;
+  // p of docs/passes.md, "Crush": tangent vectors of the rest pose along which the cloth counts as shortened
+  // by |p|² (p and −p mean the same), |p| < 1; empty: none.
+  std::vector<glm::dvec3> bias = {};
 };
 
 }  // namespace plisse

@@ -39,6 +39,13 @@ glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   return trace > 0 ? glm::inverse(s + glm::dmat2(1e-6 * trace)) : glm::dmat2(0.0);
 }
 
+// q = (t·p, b·p), no longer than .99 (docs/passes.md, "Crush").
+glm::vec2 bias_in_frame(const glm::dvec3& p, const glm::dvec3& t, const glm::dvec3& n) {
+  const glm::dvec2 q(glm::dot(t, p), glm::dot(glm::cross(n, t), p));
+  const double length = glm::length(q);
+  return glm::vec2(length > 0.99 ? q * (0.99 / length) : q);
+}
+
 }  // namespace
 
 float initial_phase(std::uint32_t seed, std::uint32_t vertex) {
@@ -87,6 +94,10 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
                      glm::dot(wander, glm::cross(rest.normal[v], rest.tangent[v])));
   }));
   rest_rows = gpu::Buffer(rows);
+  biases = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    return vertex_waves.bias.empty() ? glm::vec2(0)
+                                     : bias_in_frame(vertex_waves.bias[v], rest.tangent[v], rest.normal[v]);
+  }));
 
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];

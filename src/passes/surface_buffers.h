@@ -21,7 +21,7 @@ struct SurfaceBuffers {
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
   gpu::Buffer bind_places, influences, target_deltas;
-  gpu::Buffer offsets, neighbours, rest_rows, constants;
+  gpu::Buffer offsets, neighbours, rest_rows, constants, biases;
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
   // Per frame.

@@ -67,6 +67,7 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   wander.resize(2, static_cast<Index>(count));
   for (Index v = 0; v < wander.cols(); ++v)
     wander.col(v) = rest_frames.basis(v).transpose() * eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
+  bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
   initial_phases.resize(static_cast<Index>(count));
   for (std::size_t v = 0; v < count; ++v) {
     initial_phases[static_cast<Index>(v)] = static_cast<double>(
@@ -264,7 +265,7 @@ void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
 
 void ReferenceChain::crush_and_relax(bool leads) {
   auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
-                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states);
+                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states, scene_.bias);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
     if (now_.states[v].direction.isZero(0) && crushed[v].direction.dot(first_directions_[v]) < 0) {
