@@ -13,6 +13,10 @@ auto wrinkles(Value WrinkleSettings::*value) {
   return member(&SceneSettings::wrinkles, value);
 }
 template <typename Value>
+auto bias(Value BiasSettings::*value) {
+  return member(&SceneSettings::bias, value);
+}
+template <typename Value>
 auto relax(Value RelaxSettings::*value) {
   return member(&SceneSettings::relax, value);
 }
@@ -43,6 +47,9 @@ const std::vector<Table>& tables() {
   static const std::vector<Table> all = {
       {"model", "What moves, and when."},
       {"wrinkles", "How large the wrinkles are and where they may be."},
+      {"bias",
+       "Wrinkles that are there in the rest pose already, and deepen as the cloth is squeezed; at most one "
+       "key."},
       {"relax", "How neighbouring waves come to fit together, and what is carried from frame to frame."},
       {"camera",
        "A camera of the model by name; or one placed round it and fitted to the whole clip; or eye and "
@@ -97,6 +104,11 @@ const std::vector<Key>& keys() {
        "Seeded noise on wavelength and place, ±25 % of a wave at 1."},
       {"wrinkles", "seed", whole(wrinkles(&WrinkleSettings::seed)),
        "Seed of the noise and of the first phases."},
+
+      {"bias", "paint", file_path(bias(&BiasSettings::paint)),
+       "A paint file (docs/paint.md), painted when the scene is loaded."},
+      {"bias", "file", file_path(bias(&BiasSettings::file)),
+       "What 'plisse paint' wrote: bias.ply, or the uv texture bias.png."},
 
       {"relax", "mode",
        enumeration<RelaxMode>(relax(&RelaxSettings::mode),

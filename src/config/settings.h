@@ -36,6 +36,12 @@ struct WrinkleSettings {
   std::uint32_t seed = 1;
 };
 
+// Wrinkles of the rest pose; at most one of these is given.
+struct BiasSettings {
+  std::filesystem::path paint;  // a paint file, whose strokes are painted when the scene is loaded
+  std::filesystem::path file;   // what `plisse paint` wrote: PLY or uv texture
+};
+
 struct RelaxSettings {
   RelaxMode mode = RelaxMode::smooth;
   int rounds = 1;              // descent rounds per stepped frame
@@ -91,6 +97,7 @@ struct SceneSettings {
   std::filesystem::path file;  // the scene file, empty for a bare model
   ModelSettings model;
   WrinkleSettings wrinkles;
+  BiasSettings bias;
   RelaxSettings relax;
   CameraSettings camera;
   LightSettings light;

@@ -11,7 +11,10 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "config/options.h"
+#include "config/paint_file.h"
 #include "config/suggest.h"
+#include "paint/bias_file.h"
 #include "scene/wrinkles.h"
 
 namespace plisse::pipeline {
@@ -78,7 +81,8 @@ LoadedScene::LoadedScene(const SceneSettings& given)
       std::max(glm::distance(bounds_.low, bounds_.high), glm::distance(rest_bounds.low, rest_bounds.high)));
   units.world_centre = 0.5 * (bounds_.low + bounds_.high);
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
-  fit_camera(samples);
+  settings.camera = fitted_camera(settings, samples);
+  waves.bias = bias();
 
   Hash& hash = state_base_;
   hash.add(version).add(animation.timeline().frames_per_second).add(preroll_);
@@ -90,6 +94,7 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   add_items(hash, surface().neighbours.items);
   add_items(hash, waves.wavelength);
   add_items(hash, waves.mask);
+  if (!waves.bias.empty()) add_items(hash, waves.bias);
   const auto& relax = settings.relax;
   hash.add(relax.mode)
       .add(relax.rounds)
@@ -168,15 +173,16 @@ glm::dvec2 half_film(const SceneSettings& settings) {
 // Where no camera is given, or only its direction: the place nearest to the model from which every sampled
 // point of the clip is in the picture. In the camera's own axes a point (x, y) at depth z is seen where |x −
 // s| ≤ (z + d) tan, so each side of the picture is a plane that the points push outward.
-void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
-  CameraSettings& camera = settings.camera;
-  if (!camera.name.empty() || camera.explicit_pose) return;
+CameraSettings LoadedScene::fitted_camera(const SceneSettings& given,
+                                          const std::vector<glm::dvec3>& samples) const {
+  CameraSettings camera = given.camera;
+  if (!camera.name.empty() || camera.explicit_pose) return camera;
   const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
   const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
   glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), toward);
   right = glm::length(right) > 1e-6 ? glm::normalize(right) : glm::dvec3(1, 0, 0);
   const glm::dvec3 high = glm::cross(toward, right), centre = 0.5 * (bounds_.low + bounds_.high);
-  const glm::dvec2 tangent = half_film(settings) / camera.margin;
+  const glm::dvec2 tangent = half_film(given) / camera.margin;
   glm::dvec4 push(-INFINITY);  // right, left, up, down
   double nearest = -INFINITY;
   for (const glm::dvec3& point : samples) {
@@ -195,13 +201,55 @@ void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
   camera.target = centre + 0.5 * (push[0] - push[1]) * right + 0.5 * (push[2] - push[3]) * high;
   camera.eye = camera.target + distance * toward;
   camera.explicit_pose = true;
+  return camera;
 }
 
-passes::View LoadedScene::view(int frame) const {
-  const CameraSettings& camera = settings.camera;
+std::vector<glm::dvec3> LoadedScene::bias() const {
+  if (!settings.bias.paint.empty()) return painted(load_paint(settings.bias.paint));
+  if (!settings.bias.file.empty()) return paint::read_bias(settings.bias.file, surface(), rest);
+  return {};
+}
+
+std::vector<glm::dvec3> LoadedScene::painted(const PaintSettings& paint) const {
+  const paint::Canvas canvas{surface(), rest, [this](const PaintStroke& stroke) { return screen(stroke); }};
+  return paint::paint(canvas, paint.strokes);
+}
+
+paint::Screen LoadedScene::screen(const PaintStroke& stroke) const {
+  // An animation of its own: the scene's is asked for its frames in order.
+  Animation posing(model, choice_of(settings.model));
+  if (stroke.frame > posing.timeline().frame_count) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: there is no frame {}; the clip has {}", stroke.place,
+                                                 stroke.frame, posing.timeline().frame_count));
+  }
+  SceneSettings given = settings;
+  if (stroke.width > 0) {
+    given.output.width = stroke.width;
+    given.output.height = stroke.height;
+  }
+  if (!stroke.camera.empty()) {
+    given.camera = {};
+    try {
+      apply_options(given, {{"--camera", {stroke.camera}}});
+    } catch (const Error& error) {
+      throw Error(ExitCode::bad_input, fmt::format("{}: camera: {}", stroke.place, error.what()));
+    }
+    given.camera = fitted_camera(given, posing.samples());
+  }
+  paint::Screen screen;
+  screen.view_projection = view(stroke.frame, given).view_projection;
+  screen.width = given.output.width;
+  screen.height = given.output.height;
+  for (const glm::dvec3& x : posed(surface(), posing.pose(stroke.frame)))
+    screen.positions.push_back(units.world(x));
+  return screen;
+}
+
+passes::View LoadedScene::view(int frame, const SceneSettings& given) const {
+  const CameraSettings& camera = given.camera;
   const glm::dvec3 up(0, 1, 0), centre = 0.5 * (bounds_.low + bounds_.high);
   const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
-  double tan_x = half_film(settings).x, tan_y = half_film(settings).y;
+  double tan_x = half_film(given).x, tan_y = half_film(given).y;
   glm::dvec3 eye = camera.eye, forward = glm::normalize(camera.target - camera.eye), camera_up = up;
   if (!camera.name.empty()) {
     std::vector<std::string> names;
@@ -225,7 +273,7 @@ passes::View LoadedScene::view(int frame) const {
     forward = glm::normalize(-glm::dvec3(place[2]));
     camera_up = glm::normalize(glm::dvec3(place[1]));
     tan_y = std::tan(chosen.vertical_field_of_view / 2);
-    tan_x = tan_y * settings.output.width / settings.output.height;
+    tan_x = tan_y * given.output.width / given.output.height;
   }
   if (std::abs(glm::dot(forward, camera_up)) > 0.9999)
     camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
