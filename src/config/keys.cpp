@@ -109,6 +109,10 @@ const std::vector<Key>& keys() {
        "A paint file (docs/paint.md), painted when the scene is loaded."},
       {"bias", "file", file_path(bias(&BiasSettings::file)),
        "What 'plisse paint' wrote: bias.ply, or the uv texture bias.png."},
+      {"bias", "field", file_path(bias(&BiasSettings::field)),
+       "A solved wrinkle field over the rest pose: a PLY with amplitude and phase, or "
+       "NAME_amplitude_REST.txt with "
+       "NAME_phi_REST.txt and NAME_dphi_REST.txt beside it (then the model is their OBJ)."},
 
       {"relax", "mode",
        enumeration<RelaxMode>(relax(&RelaxSettings::mode),

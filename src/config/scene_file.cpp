@@ -95,7 +95,8 @@ void check_together(SceneSettings& scene, const Given& given, Complaints& compla
     }
   };
   std::string bias;  // the key that names the wrinkles of the rest pose; "" stands for none
-  for (const auto& [key, path] : {std::pair("paint", &scene.bias.paint), {"file", &scene.bias.file}}) {
+  for (const auto& [key, path] :
+       {std::pair("paint", &scene.bias.paint), {"file", &scene.bias.file}, {"field", &scene.bias.field}}) {
     if (path->empty()) continue;
     if (!bias.empty()) {
       complaints.add(given.at(fmt::format("bias.{}", key)),

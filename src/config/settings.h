@@ -40,6 +40,7 @@ struct WrinkleSettings {
 struct BiasSettings {
   std::filesystem::path paint;  // a paint file, whose strokes are painted when the scene is loaded
   std::filesystem::path file;   // what `plisse paint` wrote: PLY or uv texture
+  std::filesystem::path field;  // a solved wrinkle field: PLY, or the amplitudes of a set of text files
 };
 
 struct RelaxSettings {

@@ -16,6 +16,10 @@ struct VertexWaves {
   // p of docs/passes.md, "Crush": tangent vectors of the rest pose along which the cloth counts as shortened
   // by |p|² (p and −p mean the same), |p| < 1; empty: none.
   std::vector<glm::dvec3> bias = {};
+  // Where waves are there from the beginning: ±k, unit and tangent to the rest pose, 0 for vertices that start without;
+  // and their phases, radians. Empty: none.
+  std::vector<glm::dvec3> start_direction = {};
+  std::vector<double> start_phase = {};
 };
 
 }  // namespace plisse

@@ -114,9 +114,17 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
   positions = gpu::Buffer(count * sizeof(glm::vec4));
   frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
   world_waves = gpu::Buffer(count * sizeof(glm::vec4));
-  states = gpu::Buffer(count * sizeof(glm::vec4));
+  const auto starts = [&](std::size_t v) {
+    return !vertex_waves.start_direction.empty() && vertex_waves.start_direction[v] != glm::dvec3(0);
+  };
+  states = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    if (!starts(v)) return glm::vec4(0);
+    const glm::dvec3 k = vertex_waves.start_direction[v], t = rest.tangent[v];
+    return glm::vec4(glm::dot(t, k), glm::dot(glm::cross(rest.normal[v], t), k), 0, 0);
+  }));
   waves = gpu::Buffer(count * sizeof(glm::vec4));
   phases = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    if (starts(v)) return glm::vec2(vertex_waves.start_phase[v], 1);  // set
     return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));

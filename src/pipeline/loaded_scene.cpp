@@ -14,7 +14,10 @@
 #include "config/options.h"
 #include "config/paint_file.h"
 #include "config/suggest.h"
+#include "io/import_place.h"
+#include "io/wrinkle_field.h"
 #include "paint/bias_file.h"
+#include "paint/field.h"
 #include "scene/wrinkles.h"
 
 namespace plisse::pipeline {
@@ -82,7 +85,7 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   units.world_centre = 0.5 * (bounds_.low + bounds_.high);
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
   settings.camera = fitted_camera(settings, samples);
-  waves.bias = bias();
+  take_bias();
 
   Hash& hash = state_base_;
   hash.add(version).add(animation.timeline().frames_per_second).add(preroll_);
@@ -94,7 +97,11 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   add_items(hash, surface().neighbours.items);
   add_items(hash, waves.wavelength);
   add_items(hash, waves.mask);
-  if (!waves.bias.empty()) add_items(hash, waves.bias);
+  if (!waves.bias.empty()) {
+    add_items(hash, waves.bias);
+    add_items(hash, waves.start_direction);
+    add_items(hash, waves.start_phase);
+  }
   const auto& relax = settings.relax;
   hash.add(relax.mode)
       .add(relax.rounds)
@@ -204,10 +211,17 @@ CameraSettings LoadedScene::fitted_camera(const SceneSettings& given,
   return camera;
 }
 
-std::vector<glm::dvec3> LoadedScene::bias() const {
-  if (!settings.bias.paint.empty()) return painted(load_paint(settings.bias.paint));
-  if (!settings.bias.file.empty()) return paint::read_bias(settings.bias.file, surface(), rest);
-  return {};
+void LoadedScene::take_bias() {
+  const BiasSettings& given = settings.bias;
+  if (!given.paint.empty()) waves.bias = painted(load_paint(given.paint));
+  if (!given.file.empty()) waves.bias = paint::read_bias(given.file, surface(), rest);
+  if (!given.field.empty()) {
+    const auto field = io::read_wrinkle_field(given.field, settings.model.path);
+    paint::field_as_bias(surface(), rest,
+                         paint::field_on(surface(), field, io::file_to_world(model.up, model.metres_per_unit),
+                                         given.field.string()),
+                         settings.wrinkles.dead_zone, waves);
+  }
 }
 
 std::vector<glm::dvec3> LoadedScene::painted(const PaintSettings& paint) const {

@@ -54,7 +54,7 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
-  std::vector<glm::dvec3> bias() const;
+  void take_bias();
   paint::Screen screen(const PaintStroke& stroke) const;
   CameraSettings fitted_camera(const SceneSettings& given, const std::vector<glm::dvec3>& samples) const;
   passes::View view(int frame, const SceneSettings& given) const;

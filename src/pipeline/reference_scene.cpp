@@ -72,6 +72,12 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   for (std::size_t v = 0; v < count; ++v) {
     initial_phases[static_cast<Index>(v)] = static_cast<double>(
         passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
+    const auto& starts = scene.waves.start_direction;
+    initial_states.emplace_back();
+    if (starts.empty() || starts[v] == glm::dvec3(0)) continue;
+    initial_states.back() = {rest_frames.basis(static_cast<Index>(v)).transpose() * eigen(starts[v]),
+                             reference::Status::set};
+    initial_phases[static_cast<Index>(v)] = scene.waves.start_phase[v];
   }
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
@@ -241,7 +247,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
 ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
   now_.phases = scene.initial_phases;
   const auto count = scene.topology.size();
-  now_.states.resize(static_cast<std::size_t>(count));
+  now_.states = scene.initial_states;
   now_.wavenumbers = Eigen::Matrix2Xd::Zero(2, count);
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
