@@ -113,6 +113,12 @@ const std::vector<Key>& keys() {
        "A solved wrinkle field over the rest pose: a PLY with amplitude and phase, or "
        "NAME_amplitude_REST.txt with "
        "NAME_phi_REST.txt and NAME_dphi_REST.txt beside it (then the model is their OBJ)."},
+      {"bias", "use",
+       enumeration<FieldUse>(bias(&BiasSettings::use),
+                             {{"bias", FieldUse::bias}, {"direct", FieldUse::direct}}),
+       "How a field is used: its waves start and are then crush's and relax's (bias), or amplitude times "
+       "cosine as it was "
+       "solved, carried by the surface, with the animation's own waves on top (direct)."},
 
       {"relax", "mode",
        enumeration<RelaxMode>(relax(&RelaxSettings::mode),

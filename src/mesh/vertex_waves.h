@@ -1,10 +1,19 @@
 // What the wrinkles of each welded vertex are like, whatever the pose.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
 namespace plisse {
+
+// A solved wrinkle field over one triangle, carried as it is (docs/passes.md, "Fields").
+struct FieldTriangle {
+  // turns[j][k]: the phase, in turns, that corner j's plane wave has at corner k; a common whole number is
+  // left out.
+  std::array<std::array<double, 3>, 3> turns{};
+  std::array<double, 3> amplitude{};  // metres, of the corners
+};
 
 // All of length V, but for what may be empty.
 struct VertexWaves {
@@ -16,10 +25,11 @@ struct VertexWaves {
   // p of docs/passes.md, "Crush": tangent vectors of the rest pose along which the cloth counts as shortened
   // by |p|² (p and −p mean the same), |p| < 1; empty: none.
   std::vector<glm::dvec3> bias = {};
-  // Where waves are there from the beginning: ±k, unit and tangent to the rest pose, 0 for vertices that start without;
-  // and their phases, radians. Empty: none.
+  // Where waves are there from the beginning: ±k, unit and tangent to the rest pose, 0 for vertices that
+  // start without; and their phases, radians. Empty: none.
   std::vector<glm::dvec3> start_direction = {};
   std::vector<double> start_phase = {};
+  std::vector<FieldTriangle> field = {};  // one a triangle of the surface, or none
 };
 
 }  // namespace plisse

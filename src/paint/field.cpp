@@ -180,4 +180,35 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
   }
 }
 
+std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
+                                          const SurfaceField& field) {
+  const std::vector<glm::dvec3> gradients = phase_gradients(surface, rest, field);
+  std::vector<bool> smooth;
+  const auto all = differences(surface, field);
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    smooth.push_back(!all[v].empty() && std::all_of(all[v].begin(), all[v].end(), [&](const Difference& d) {
+      const double reached = 0.5 * glm::dot(gradients[v] + gradients[d.to], d.edge);
+      return std::abs(reached - d.phase) < pi / 2;
+    }));
+  }
+  std::vector<FieldTriangle> result(surface.triangle_count());
+  for (std::size_t t = 0; t < result.size(); ++t) {
+    const auto id = [&](std::size_t c) {
+      return surface.render_vertices[surface.triangles[3 * t + c]].welded;
+    };
+    const double whole = std::round(field.phase[t][0] / (2 * pi));
+    for (std::size_t j = 0; j < 3; ++j) {
+      result[t].amplitude[j] = field.amplitude[id(j)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double phase =
+            smooth[id(j)]
+                ? field.phase[t][j] + glm::dot(gradients[id(j)], surface.rest[id(k)] - surface.rest[id(j)])
+                : field.phase[t][k];
+        result[t].turns[j][k] = phase / (2 * pi) - whole;
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace plisse::paint

@@ -38,4 +38,10 @@ double gathered_for(double steepness, double dead_zone);
 void field_as_bias(const Surface& surface, const RestFrames& rest, const SurfaceField& field,
                    double dead_zone, VertexWaves& waves);
 
+// The field to be carried as it is: every corner's phase with its vertex's gradient, in the triangle. Where a
+// vertex's gradient does not bring it to its neighbours' phases within a quarter of a turn (round a
+// singularity, or where the amplitude is 0) its planes are linear between the corners instead.
+std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
+                                          const SurfaceField& field);
+
 }  // namespace plisse::paint

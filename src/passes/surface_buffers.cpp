@@ -111,6 +111,14 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
     return GpuCorner{surface.triangles[i], surface.render_vertices[surface.triangles[i]].welded};
   }));
 
+  if (!vertex_waves.field.empty()) {
+    field = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
+      const FieldTriangle& of = vertex_waves.field[i / 3];
+      const auto& turns = of.turns[i % 3];
+      return glm::vec4(turns[0], turns[1], turns[2], of.amplitude[i % 3] / units.metres);
+    }));
+  }
+
   positions = gpu::Buffer(count * sizeof(glm::vec4));
   frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
   world_waves = gpu::Buffer(count * sizeof(glm::vec4));

@@ -24,6 +24,7 @@ struct SurfaceBuffers {
   gpu::Buffer offsets, neighbours, rest_rows, constants, biases;
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
+  gpu::Buffer field;  // a corner each: its plane's turns at the three corners, amplitude; or nothing
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).

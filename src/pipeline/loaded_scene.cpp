@@ -119,6 +119,7 @@ passes::Look LoadedScene::look() const {
   passes::Look look;
   look.smooth_blend = s.blend == Blend::smooth;
   look.full_gradient = s.gradient == Gradient::full;
+  look.field = !waves.field.empty();
   look.shadows = settings.light.shadows;
   look.ground = settings.output.ground;
   look.wireframe = s.wireframe;
@@ -216,11 +217,13 @@ void LoadedScene::take_bias() {
   if (!given.paint.empty()) waves.bias = painted(load_paint(given.paint));
   if (!given.file.empty()) waves.bias = paint::read_bias(given.file, surface(), rest);
   if (!given.field.empty()) {
-    const auto field = io::read_wrinkle_field(given.field, settings.model.path);
-    paint::field_as_bias(surface(), rest,
-                         paint::field_on(surface(), field, io::file_to_world(model.up, model.metres_per_unit),
-                                         given.field.string()),
-                         settings.wrinkles.dead_zone, waves);
+    const auto field =
+        paint::field_on(surface(), io::read_wrinkle_field(given.field, settings.model.path),
+                        io::file_to_world(model.up, model.metres_per_unit), given.field.string());
+    if (given.use == FieldUse::bias)
+      paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
+    else
+      waves.field = paint::field_directly(surface(), rest, field);
   }
 }
 
@@ -367,6 +370,7 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
   Hash hash = state_hash(step_of_frame(frame));
   hash.add(driver.hex());
   add_items(hash, waves.wander);
+  if (!waves.field.empty()) add_items(hash, waves.field);
   add_items(hash, profile.f);
   add_items(hash, profile.derivative);
   for (const auto& vertex : surface().render_vertices) {

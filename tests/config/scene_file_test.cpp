@@ -330,6 +330,7 @@ void expect_defaults(const SceneSettings& scene) {
   EXPECT_EQ(scene.bias.paint, fresh.bias.paint);
   EXPECT_EQ(scene.bias.file, fresh.bias.file);
   EXPECT_EQ(scene.bias.field, fresh.bias.field);
+  EXPECT_EQ(scene.bias.use, fresh.bias.use);
   EXPECT_EQ(scene.relax.mode, fresh.relax.mode);
   EXPECT_EQ(scene.relax.rounds, fresh.relax.rounds);
   EXPECT_EQ(scene.relax.epsilon, fresh.relax.epsilon);
@@ -441,6 +442,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"paint", "\"model.glb\""},
                                                      {"file", "\"model.glb\""},
                                                      {"field", "\"model.glb\""},
+                                                     {"use", "\"direct\""},
                                                      {"path", "\"x\""}};
   for (const config::Key& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;

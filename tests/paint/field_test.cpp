@@ -181,6 +181,79 @@ TEST_F(Field, StartsInPhaseAndStaysWhileNothingMoves) {
   }
 }
 
+// --- carried as they are: the picture against a cos φ
+
+TEST(FieldFormula, DirectlyIsExactForPlaneWavesManyToATriangle) {
+  const Sheet sheet = test::grid(9, 9, edge, 0.2, 6);
+  const auto phase = [](const glm::dvec3& x) {
+    return 2 * pi * (80 * x.x - 55 * x.y) + 2;
+  };  // five waves an edge
+  const auto amplitude = [](const glm::dvec3&) { return 0.003; };
+  const SurfaceField field = field_of(sheet, amplitude, phase);
+  const auto triangles = field_directly(sheet.surface, sheet.rest, field);
+  const auto vector = [](const glm::dvec3& x) { return Eigen::Vector3d(x.x, x.y, x.z); };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    reference::CarriedField carried;
+    Eigen::Matrix3d corners;
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const auto c = static_cast<std::size_t>(j);
+      corners.col(j) = vector(sheet.surface.rest[sheet.surface.triangles[3 * t + c]]);
+      carried.amplitudes[j] = triangles[t].amplitude[c];
+      for (Eigen::Index k = 0; k < 3; ++k)
+        carried.turns(j, k) = triangles[t].turns[c][static_cast<std::size_t>(k)];
+    }
+    for (const Eigen::Vector3d& b : {Eigen::Vector3d(0.2, 0.3, 0.5), Eigen::Vector3d(0.6, 0.39, 0.01)}) {
+      const auto sample = reference::sample(carried, corners, b, reference::Blend::smooth);
+      const Eigen::Vector3d x = corners * b;
+      const auto at = [&](double dx, double dy) {
+        return 0.003 * std::cos(phase({x.x() + dx, x.y() + dy, 0}));
+      };
+      EXPECT_NEAR(sample.height, at(0, 0), 1e-4 * 0.003);  // issue 4: 1e-4 of the largest amplitude
+      // The gradient against central differences of the formula at two step sizes.
+      for (const double step : {1e-5, 1e-6}) {
+        const Eigen::Vector3d slope((at(step, 0) - at(-step, 0)) / (2 * step),
+                                    (at(0, step) - at(0, -step)) / (2 * step), 0);
+        // Truncation h ω³ step²/6 with ω = 610: 1.1e-5 of hω at 1e-5; the fit's own 1e-6 besides.
+        EXPECT_LT((sample.gradient - slope).norm(), 5e-5 * 0.003 * 610) << step;
+      }
+    }
+  }
+}
+
+// Across the edge between two coplanar triangles height and slope go on: no edge to be seen.
+TEST(FieldFormula, DirectlyHasNoCreaseAtEdges) {
+  const Sheet sheet = test::grid(7, 7, edge, 0.2, 8);
+  const auto phase = [](const glm::dvec3& x) { return 300 * std::hypot(x.x + 0.2, x.y + 0.1); };
+  const SurfaceField field = field_of(
+      sheet, [](const glm::dvec3& x) { return 0.002 + 0.005 * x.x; }, phase);
+  const auto triangles = field_directly(sheet.surface, sheet.rest, field);
+  const auto at = [&](std::size_t t, const Eigen::Vector3d& x) {
+    reference::CarriedField carried;
+    Eigen::Matrix3d corners;
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const glm::dvec3 p = sheet.surface.rest[sheet.surface.triangles[3 * t + static_cast<std::size_t>(j)]];
+      corners.col(j) = Eigen::Vector3d(p.x, p.y, 1);
+      carried.amplitudes[j] = triangles[t].amplitude[static_cast<std::size_t>(j)];
+      for (Eigen::Index k = 0; k < 3; ++k)
+        carried.turns(j, k) = triangles[t].turns[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)];
+    }
+    const Eigen::Vector3d b = corners.inverse() * Eigen::Vector3d(x.x(), x.y(), 1);
+    corners.row(2).setZero();
+    return reference::sample(carried, corners, b, reference::Blend::smooth);
+  };
+  for (std::size_t square = 0; square < 36; ++square) {  // its two triangles share the diagonal
+    const auto& ids = sheet.surface.triangles;
+    const glm::dvec3 p = sheet.surface.rest[ids[6 * square]], q = sheet.surface.rest[ids[6 * square + 2]];
+    for (const double s : {0.15, 0.5, 0.8}) {
+      const glm::dvec3 x = glm::mix(p, q, s);
+      const auto one = at(2 * square, {x.x, x.y, 0}), other = at(2 * square + 1, {x.x, x.y, 0});
+      EXPECT_NEAR(one.height, other.height,
+                  1e-9);  // roundings of 1e-15 · 300 rad, and 1e-20/E in the weights
+      EXPECT_LT((one.gradient - other.gradient).norm(), 1e-6);
+    }
+  }
+}
+
 io::WrinkleField disk() {
   return io::read_wrinkle_field(test::shared_data("tfw-disk/disk_amplitude_simulated.txt"),
                                 test::shared_data("tfw-disk/disk_simulated.obj"));
