@@ -216,11 +216,11 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
             2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
         if (!scene.scene.waves.field.empty()) {
           const auto corner = static_cast<std::size_t>(c);
-          const FieldTriangle& field = scene.scene.waves.field[t];
+          const FieldTriangle& carried = scene.scene.waves.field[t];
           if (!triangle.field) triangle.field.emplace();
-          triangle.field->amplitudes[c] = field.amplitude[corner] / scene.scene.units.metres;
+          triangle.field->amplitudes[c] = carried.amplitude[corner] / scene.scene.units.metres;
           for (int k = 0; k < 3; ++k)
-            triangle.field->turns(c, k) = field.turns[corner][static_cast<std::size_t>(k)];
+            triangle.field->turns(c, k) = carried.turns[corner][static_cast<std::size_t>(k)];
         }
         triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
         // The rest normal's components ride in the posed frame.

@@ -125,10 +125,7 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
   double longest_wavenumber = wavenumber.maxCoeff();
   HeightSample wave =
       height_and_gradient(waves, fragment.barycentric, scene.profile, shading.blend, shading.gradient, fade);
-  const double height = side * wave.height;
-  const Vector3d N = side * (normal - wave.gradient).normalized();
-  const double lost_slope =
-      wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
+  double lost_slope = wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
   double amplitude = wave.weights.dot(waves.heights.cwiseProduct(fade));
   if (triangle.field) {
     const CarriedField& field = *triangle.field;
@@ -144,6 +141,7 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
     longest_wavenumber = std::max(longest_wavenumber, slopes.colwise().norm().maxCoeff());
   }
   const double height = side * wave.height;
+  const Vector3d N = side * (normal - wave.gradient).normalized();
   const double occlusion = occlusion_of(shading.cavity, amplitude, height, longest_wavenumber);
 
   // Texture, shifted by the parallax.
