@@ -71,7 +71,21 @@ TEST_F(Paint, StrokesAndTheirFilesMakeTheSameFrames) {
     EXPECT_EQ(io::load_image(folder / ("gone.toml_frames/" + name)).rgba,
               io::load_image(folder / ("bare.toml_frames/" + name)).rgba);
   }
-  EXPECT_EQ(plisse({"verify", (folder / "strokes.toml").string(), "-q"}).code, 0);
+
+  // Verify holds the bias against the reference, and notices a thousandth.
+  const std::string strokes_scene = (folder / "strokes.toml").string(),
+                    shaders = (folder / "shaders").string();
+  EXPECT_EQ(plisse({"verify", strokes_scene, "-q"}).code, 0);
+  std::filesystem::copy(std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", shaders,
+                        std::filesystem::copy_options::recursive);
+  std::string crush = read_text(folder / "shaders/crush.comp");
+  const std::string line = "m0 -= dot(m0, q) * q;";
+  ASSERT_NE(crush.find(line), std::string::npos);
+  write_text(folder / "shaders/crush.comp",
+             crush.replace(crush.find(line), line.size(), "m0 -= 1.001 * dot(m0, q) * q;"));
+  const Outcome altered = plisse({"verify", strokes_scene, "-q", "--shaders", shaders, "--json", report});
+  EXPECT_EQ(altered.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(read_text(report))["passes"]["crush"]["ok"], false);
 }
 
 TEST_F(Paint, SaysWhatIsWrongWithItsLine) {
