@@ -4,6 +4,7 @@
 #include "common/surface.glsl"
 
 layout(binding = 17) uniform samplerBuffer rest_rows;  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
+layout(binding = 18) uniform samplerBuffer biases;     // q: painted wrinkles of the rest pose
 layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
 layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
 layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
@@ -32,6 +33,9 @@ void main() {
         m0 += (dot(t, e) - rest.z) * rest.xy;
         m1 += (dot(b, e) - rest.w) * rest.xy;
     }
+    vec2 q = texelFetch(biases, int(v)).xy;  // M(E − q⊗q)
+    m0 -= dot(m0, q) * q;
+    m1 -= dot(m1, q) * q;
     float determinant = m0.x * m1.y - m0.y * m1.x;
     float sigma1 = 0.5 * (length(vec2(m0.x + m1.y, m1.x - m0.y)) + length(vec2(m0.x - m1.y, m0.y + m1.x)));
     float sigma2 = sigma1 > 0.0 ? abs(determinant) / sigma1 : 0.0;

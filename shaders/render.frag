@@ -1,7 +1,7 @@
 // Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
 // texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; SINUSOID, whose profile
-// needs no table; ALPHA, for materials that are masked or blended (a discard, though never taken, costs 8 %); NORMAL_MAP and
-// VERTEX_COLOURS, for those that have them.
+// needs no table; FIELD, a solved wrinkle field besides; ALPHA, for materials that are masked or blended (a discard, though
+// never taken, costs 8 %); NORMAL_MAP and VERTEX_COLOURS, for those that have them.
 #include "common/constants.glsl"
 
 #define INTERFACE in
@@ -53,6 +53,67 @@ float rise(float s, out float slope) {  // S and S'
     return s * s * (3.0 - 2.0 * s);
 }
 
+// The weights of the three waves, and what their gradients are made of.
+struct Weights {
+    vec3 w;
+#ifndef LINEAR_BLEND
+    vec3 edge, product, s, slope;  // e_AB, e_BC, e_CA over E; αβ, βγ, γα; S and S' along each edge
+    float scale;
+#endif
+};
+
+Weights weights_at(vec3 b) {
+    Weights at;
+#ifdef LINEAR_BLEND
+    at.w = b;
+#else
+    at.s.x = rise(b.y + b.z * along.z, at.slope.x);
+    at.s.y = rise(b.z + b.x * along.x, at.slope.y);
+    at.s.z = rise(b.x + b.y * along.y, at.slope.z);
+    at.product = b * b.yzx;
+    vec3 edge = at.product * at.product;
+    at.scale = 1.0 / (edge.x + edge.y + edge.z + 1e-20);
+    at.edge = edge * at.scale;
+    at.w = vec3(at.edge.x * (1.0 - at.s.x) + at.edge.z * at.s.z, at.edge.y * (1.0 - at.s.y) + at.edge.x * at.s.x,
+                at.edge.z * (1.0 - at.s.z) + at.edge.y * at.s.y);
+#endif
+    return at;
+}
+
+// Σ H_j ∇w_j.
+vec3 blend_gradient(Weights at, vec3 b, vec3 H) {
+#ifdef LINEAR_BLEND
+    vec3 change = H;  // ∂(Σ w H)/∂(α, β, γ)
+#else
+    float blend = dot(at.w, H);
+    // Of Σ e D/E: the edges' own blends D against the whole, and the motion along each edge.
+    vec3 D = vec3(mix(H.x, H.y, at.s.x), mix(H.y, H.z, at.s.y), mix(H.z, H.x, at.s.z)) - blend;
+    vec3 twice = 2.0 * at.scale * at.product * D;
+    vec3 motion = at.edge * vec3(at.slope.x * (H.y - H.x), at.slope.y * (H.z - H.y), at.slope.z * (H.x - H.z));
+    vec3 change = vec3(twice.x * b.y + twice.z * b.z + motion.y * along.x + motion.z,
+                       twice.x * b.x + twice.y * b.z + motion.x + motion.z * along.y,
+                       twice.y * b.y + twice.z * b.x + motion.x * along.z + motion.y);
+#endif
+    return (change.y - change.x) * gradient_beta + (change.z - change.x) * gradient_gamma;
+}
+
+#ifdef FIELD
+// The carried field: amplitude and phase are blended before the cosine is taken, so that any number of waves fits into a
+// triangle.
+void add_field(inout Wrinkle result, Weights at, vec3 b) {
+    vec2 turns_per_pixel = vec2(dot(at.w, dFdx(field_tau)), dot(at.w, dFdy(field_tau)));
+    float fade = 1.0 - smoothstep(0.25, 0.5, length(turns_per_pixel));
+    float amplitude = dot(at.w, field_amplitude), turns = dot(at.w, field_tau);
+    vec3 slope = at.w.x * field_slope_a + at.w.y * field_slope_b + at.w.z * field_slope_c +
+                 blend_gradient(at, b, field_tau);
+    float phase = 2.0 * pi * (turns - floor(turns + 0.5)), steep = 2.0 * pi * amplitude;
+    result.height += fade * amplitude * cos(phase);
+    result.gradient += fade * (cos(phase) * blend_gradient(at, b, field_amplitude) - steep * sin(phase) * slope);
+    result.amplitude += fade * amplitude;
+    result.lost_slope += 0.5 * steep * steep * dot(slope, slope) * (1.0 - fade * fade);
+}
+#endif
+
 Wrinkle wrinkle_at(vec3 b) {
     vec3 dx = dFdx(tau), dy = dFdy(tau);
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
@@ -62,43 +123,20 @@ Wrinkle wrinkle_at(vec3 b) {
     look_up(f, slope);
     vec3 H = h * f;
 
-    vec3 w;
-    vec3 gradient_weights = vec3(0.0);  // ∂(Σ w H)/∂(α, β, γ)
-#ifdef LINEAR_BLEND
-    w = b;
-    gradient_weights = H;
-#else
-    float slope_ab, slope_bc, slope_ca;
-    float s_ab = rise(b.y + b.z * along.z, slope_ab);
-    float s_bc = rise(b.z + b.x * along.x, slope_bc);
-    float s_ca = rise(b.x + b.y * along.y, slope_ca);
-    vec3 product = b * b.yzx;             // αβ, βγ, γα
-    vec3 edge = product * product;
-    float scale = 1.0 / (edge.x + edge.y + edge.z + 1e-20);
-    edge *= scale;                        // e_AB, e_BC, e_CA over E
-    w = vec3(edge.x * (1.0 - s_ab) + edge.z * s_ca, edge.y * (1.0 - s_bc) + edge.x * s_ab,
-             edge.z * (1.0 - s_ca) + edge.y * s_bc);
-#ifdef FULL_GRADIENT
-    float blend = dot(w, H);
-    // ∂/∂b of Σ e D/E: the edges' own blends D against the whole, and the motion along each edge.
-    vec3 D = vec3(mix(H.x, H.y, s_ab), mix(H.y, H.z, s_bc), mix(H.z, H.x, s_ca)) - blend;
-    vec3 twice = 2.0 * scale * product * D;
-    vec3 motion = edge * vec3(slope_ab * (H.y - H.x), slope_bc * (H.z - H.y), slope_ca * (H.x - H.z));
-    gradient_weights = vec3(twice.x * b.y + twice.z * b.z + motion.y * along.x + motion.z,
-                            twice.x * b.x + twice.y * b.z + motion.x + motion.z * along.y,
-                            twice.y * b.y + twice.z * b.x + motion.x * along.z + motion.y);
-#endif
-#endif
+    Weights weights_here = weights_at(b);
+    vec3 w = weights_here.w;
     vec3 ws = w * fade * slope;
     Wrinkle result;
     result.height = dot(w, H);
     result.gradient = ws.x * climb_a + ws.y * climb_b + ws.z * climb_c;
 #ifdef FULL_GRADIENT
-    result.gradient += (gradient_weights.y - gradient_weights.x) * gradient_beta +
-                       (gradient_weights.z - gradient_weights.x) * gradient_gamma;
+    result.gradient += blend_gradient(weights_here, b, H);
 #endif
     result.amplitude = dot(w, h);
     result.lost_slope = dot(w, steepness.xyz * (1.0 - fade * fade));
+#ifdef FIELD
+    add_field(result, weights_here, b);
+#endif
     return result;
 }
 #endif
@@ -130,7 +168,11 @@ void main() {
 #ifndef PLAIN
     vec3 b = vec3(1.0 - weights.x - weights.y, weights);
     Wrinkle wrinkle = Wrinkle(0.0, vec3(0.0), 0.0, 0.0);
+#ifdef FIELD
+    if (heights.x + heights.y + heights.z + field_amplitude.x + field_amplitude.y + field_amplitude.z > 0.0) {
+#else
     if (heights.x + heights.y + heights.z > 0.0) {
+#endif
         wrinkle = wrinkle_at(b);
         N = side * normalize(n - wrinkle.gradient);
         lost_slope = wrinkle.lost_slope;

@@ -14,6 +14,9 @@ uniform vec3 normal_map_size;  // texels; scale
 #ifdef VERTEX_COLOURS
 layout(binding = 19) uniform samplerBuffer render_colours;
 #endif
+#ifdef FIELD
+layout(binding = 20) uniform samplerBuffer field;             // a corner each: its turns at the three corners, amplitude
+#endif
 
 #define INTERFACE out
 #define FLAT flat out
@@ -101,6 +104,21 @@ void main() {
 #endif
     gradient_beta = slope_beta;
     gradient_gamma = slope_gamma;
+#ifdef FIELD
+    vec3 field_slopes[3];
+    for (int i = 0; i < 3; ++i) {
+        vec4 its = texelFetch(field, int(first) + i);
+        field_tau[i] = its[corner];
+        field_amplitude[i] = its.w;
+        field_slopes[i] = (its.y - its.x) * gradient_beta + (its.z - its.x) * gradient_gamma;
+        largest = max(largest, length(field_slopes[i]));
+    }
+    field_slope_a = field_slopes[0];
+    field_slope_b = field_slopes[1];
+    field_slope_c = field_slopes[2];
+    heights.w = 0.25 / largest;
+    steepness.w = 2.0 * pi * largest;
+#endif
     vec3 d = p[2] - p[1];
     along = vec3(safe_divide(vec3(dot(-b, d)), dot(d, d)).x, safe_divide(vec3(dot(-d, -c)), dot(c, c)).x,
                  safe_divide(vec3(dot(c, b)), dot(b, b)).x);

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "config/frames.h"
+#include "config/paint_settings.h"
 #include "config/settings.h"
 #include "gpu/context.h"
 #include "io/import.h"
@@ -86,6 +87,27 @@ VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame)
 
 // How a scene wants its model read.
 io::ImportOptions import_options(const SceneSettings& scene);
+
+struct PaintRequest {
+  PaintSettings paint;
+  std::string folder;  // for bias.ply, bias.png and preview.png
+  int device = -1;
+  std::string shader_folder;
+};
+
+struct PaintReport {
+  struct Output {
+    std::string path, kind;  // bias | texture | preview
+  };
+  std::vector<Output> outputs;
+  std::size_t vertices = 0, painted_vertices = 0;  // welded; painted: |p| > 0
+  double largest = 0;                              // |p|
+  double wall_s = 0;
+};
+
+// Paints the rest pose of the file's scene and writes the result as vertices, as a uv texture (left out with
+// a warning where the model's uv cannot carry it) and as a preview frame.
+PaintReport paint_wrinkles(const PaintRequest& request);
 
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.

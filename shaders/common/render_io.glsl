@@ -7,6 +7,9 @@ INTERFACE Varyings {
 #ifndef PLAIN
     vec3 tau;           // the three waves' phases here, turns; linear over the triangle
     vec2 weights;       // barycentric β, γ
+#ifdef FIELD
+    vec3 field_tau;     // the carried field's three phases here, turns; linear over the triangle
+#endif
 #endif
 #ifdef NORMAL_MAP
     vec2 normal_uv;
@@ -30,6 +33,12 @@ FLAT vec4 steepness;          // ½ m (2π h_j |κ_j|)²; 2π max |κ|
 FLAT vec3 gradient_beta;      // ∇β, ∇γ in the triangle's plane; ∇α is minus their sum
 FLAT vec3 gradient_gamma;
 FLAT vec3 along;              // c_A, c_B, c_C: where the opposite corner projects onto an edge
+#ifdef FIELD
+FLAT vec3 field_amplitude;    // of the three corners
+FLAT vec3 field_slope_a;      // the gradients of its three phases, turns per length
+FLAT vec3 field_slope_b;
+FLAT vec3 field_slope_c;
+#endif
 FLAT vec3 gradient_u;
 FLAT vec3 gradient_v;
 #ifdef AOV

@@ -16,6 +16,7 @@ Command add_info(CLI::App& program);
 Command add_init(CLI::App& program);
 Command add_verify(CLI::App& program);
 Command add_size(CLI::App& program);
+Command add_paint(CLI::App& program);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

@@ -1,16 +1,10 @@
-// What is wrong with a file that people write, gathered so that one look at the output mends the whole file.
+// What is wrong with a file that people write, gathered, so that one look at the output mends the whole file.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <toml++/toml.h>
-#include <algorithm>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
-
-#include "base/error.h"
 
 namespace plisse::config {
 
@@ -18,22 +12,9 @@ class Complaints {
  public:
   explicit Complaints(const std::filesystem::path& file) : file_(file.string()) {}
 
-  void add(const toml::source_position& at, const std::string& text) {
-    const auto line = std::max<toml::source_index>(at.line, 1),
-               column = std::max<toml::source_index>(at.column, 1);
-    lines_.push_back({line, column, fmt::format("{}:{}:{}: {}", file_, line, column, text)});
-  }
-
-  // Throws Error(bad_input), a line a complaint in the file's order.
-  void throw_if_any() {
-    if (lines_.empty()) return;
-    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    });
-    std::string text;
-    for (const Line& line : lines_) text += (text.empty() ? "" : "\n") + line.text;
-    throw Error(ExitCode::bad_input, text);
-  }
+  void add(const toml::source_position& at, const std::string& text);
+  // Error(bad_input) with one "file:line:column: text" a line, in the file's order.
+  void throw_if_any();
 
  private:
   struct Line {
@@ -43,5 +24,11 @@ class Complaints {
   std::string file_;
   std::vector<Line> lines_;
 };
+
+// A place in a file as messages name it: "file:line:column".
+std::string place_in(const std::filesystem::path& file, const toml::source_position& at);
+
+// The file's content as TOML; what is no TOML is thrown as the file's one complaint.
+toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace plisse::config

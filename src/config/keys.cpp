@@ -15,6 +15,10 @@ auto wrinkles(Value WrinkleSettings::*value) {
   return member(&SceneSettings::wrinkles, value);
 }
 template <typename Value>
+auto bias(Value BiasSettings::*value) {
+  return member(&SceneSettings::bias, value);
+}
+template <typename Value>
 auto relax(Value RelaxSettings::*value) {
   return member(&SceneSettings::relax, value);
 }
@@ -51,6 +55,9 @@ const std::vector<Table>& tables() {
   static const std::vector<Table> all = {
       {"model", "What moves, and when."},
       {"wrinkles", "How large the wrinkles are and where they may be."},
+      {"bias",
+       "Wrinkles that are there in the rest pose already, and deepen as the cloth is squeezed; at most one "
+       "key."},
       {"relax", "How neighbouring waves come to fit together, and what is carried from frame to frame."},
       {"camera",
        "A camera of the model by name; or one placed round it and fitted to the whole clip; or eye and "
@@ -111,6 +118,21 @@ const std::vector<Key>& keys() {
        "Seeded noise on wavelength and place, ±25 % of a wave at 1."},
       {"wrinkles", "seed", whole(wrinkles(&WrinkleSettings::seed)),
        "Seed of the noise and of the first phases."},
+
+      {"bias", "paint", file_path(bias(&BiasSettings::paint)),
+       "A paint file (docs/paint.md), painted when the scene is loaded."},
+      {"bias", "file", file_path(bias(&BiasSettings::file)),
+       "What 'plisse paint' wrote: bias.ply, or the uv texture bias.png."},
+      {"bias", "field", file_path(bias(&BiasSettings::field)),
+       "A solved wrinkle field over the rest pose: a PLY with amplitude and phase, or "
+       "NAME_amplitude_REST.txt with "
+       "NAME_phi_REST.txt and NAME_dphi_REST.txt beside it (then the model is their OBJ)."},
+      {"bias", "use",
+       enumeration<FieldUse>(bias(&BiasSettings::use),
+                             {{"bias", FieldUse::bias}, {"direct", FieldUse::direct}}),
+       "How a field is used: its waves start and are then crush's and relax's (bias), or amplitude times "
+       "cosine as it was "
+       "solved, carried by the surface, with the animation's own waves on top (direct)."},
 
       {"relax", "mode",
        enumeration<RelaxMode>(relax(&RelaxSettings::mode),

@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -43,41 +44,6 @@ Problem wrong_type(const toml::node& node, std::string_view wanted) {
 double finite(double value) {
   if (!std::isfinite(value)) throw Problem{fmt::format("{} is not finite", value), ""};
   return value;
-}
-
-double within(double value, const Range& range) {
-  finite(value);
-  const bool special = value == 0 && !range.zero.empty();
-  if (!special && (value < range.low || value > range.high)) {
-    throw Problem{fmt::format("{} is out of range", value), ""};
-  }
-  return value;
-}
-
-std::string range_text(const Range& range) {
-  const std::string limits = fmt::format("{:g} … {:g}", range.low, range.high);
-  return range.zero.empty() ? limits : fmt::format("{}; 0: {}", limits, range.zero);
-}
-
-double number_of(const toml::node& node) {
-  if (!node.is_number()) throw wrong_type(node, "a number");
-  return *node.value<double>();
-}
-
-// Metres; not yet known to be finite.
-double length_of(const toml::node& node) {
-  if (node.is_number()) return *node.value<double>();
-  if (const auto text = node.value_exact<std::string>()) {
-    if (const auto metres = parse_length(*text)) return *metres;
-    throw Problem{fmt::format("'{}' is not a length like \"12 mm\" (units: {})", *text, length_units), ""};
-  }
-  throw wrong_type(node, "a length");
-}
-
-std::int64_t whole_of(const toml::node& node) {
-  const auto value = node.value_exact<std::int64_t>();
-  if (!value) throw wrong_type(node, "a whole number");
-  return *value;
 }
 
 // Finds what a path in a scene means; the file system decides whether it is there.
@@ -132,6 +98,81 @@ std::function<std::string(const SceneSettings&)> shown_text(Member<std::string> 
 }
 
 }  // namespace
+
+double within(double value, const Range& range) {
+  finite(value);
+  const bool special = value == 0 && !range.zero.empty();
+  if (!special && (value < range.low || value > range.high)) {
+    throw Problem{fmt::format("{} is out of range", value), ""};
+  }
+  return value;
+}
+
+std::string range_text(const Range& range) {
+  const std::string limits = fmt::format("{:g} … {:g}", range.low, range.high);
+  return range.zero.empty() ? limits : fmt::format("{}; 0: {}", limits, range.zero);
+}
+
+double number_of(const toml::node& node) {
+  if (!node.is_number()) throw wrong_type(node, "a number");
+  return *node.value<double>();
+}
+
+double length_of(const toml::node& node) {
+  if (node.is_number()) return *node.value<double>();
+  if (const auto text = node.value_exact<std::string>()) {
+    if (const auto metres = parse_length(*text)) return *metres;
+    throw Problem{fmt::format("'{}' is not a length like \"12 mm\" (units: {})", *text, length_units), ""};
+  }
+  throw wrong_type(node, "a length");
+}
+
+std::int64_t whole_of(const toml::node& node) {
+  const auto value = node.value_exact<std::int64_t>();
+  if (!value) throw wrong_type(node, "a whole number");
+  return *value;
+}
+
+std::vector<std::string> names_of(const toml::node& node) {
+  std::vector<std::string> given;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& item : *array) given.push_back(text_of(item));
+  } else {
+    given.push_back(text_of(node));
+  }
+  for (const std::string& name : given) {
+    if (name.empty()) throw Problem{"a name is empty", ""};
+  }
+  return given;
+}
+
+fs::path existing_file(const toml::node& node, const fs::path& folder) {
+  const std::string given = text_of(node);
+  const fs::path path = resolved(folder, given);
+  std::error_code ignored;
+  if (given.empty() || !fs::is_regular_file(path, ignored))
+    throw Problem{fmt::format("there is no file '{}'", path.string()), ""};
+  return path;
+}
+
+std::pair<int, int> size_of(const toml::node& node) {
+  std::int64_t sides[2] = {0, 0};
+  if (const toml::array* array = node.as_array()) {
+    if (array->size() != 2) throw Problem{fmt::format("{} numbers are no size", array->size()), ""};
+    for (std::size_t i = 0; i < 2; ++i) sides[i] = whole_of((*array)[i]);
+  } else {
+    const std::string given = text_of(node);
+    const char* const end = given.data() + given.size();
+    const auto cross = std::from_chars(given.data(), end, sides[0]).ptr;
+    const bool shaped = cross != given.data() && cross != end && (*cross == 'x' || *cross == 'X') &&
+                        cross + 1 != end && std::from_chars(cross + 1, end, sides[1]).ptr == end;
+    if (!shaped) throw Problem{fmt::format("'{}' is not a size like \"1280x1024\"", given), ""};
+  }
+  for (const std::int64_t side : sides) {
+    if (side < 1 || side > largest_side) throw Problem{fmt::format("{} is out of range", side), ""};
+  }
+  return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+}
 
 std::string quoted(const std::string& text) {
   std::ostringstream stream;
@@ -236,16 +277,7 @@ Kind name_or_index(Member<std::string> value, std::string_view empty) {
 Kind names(Member<std::vector<std::string>> value) {
   return {"names", "a text or an array of texts",
           [=](SceneSettings& settings, const toml::node& node, const fs::path&) {
-            std::vector<std::string> given;
-            if (const toml::array* array = node.as_array()) {
-              for (const toml::node& item : *array) given.push_back(text_of(item));
-            } else {
-              given.push_back(text_of(node));
-            }
-            for (const std::string& name : given) {
-              if (name.empty()) throw Problem{"a name is empty", ""};
-            }
-            value(settings) = given;
+            value(settings) = names_of(node);
           },
           [=](const SceneSettings& settings) {
             std::string text;
@@ -286,23 +318,7 @@ Kind frame_selection(Member<std::string> value) {
 Kind size(Member<int> width, Member<int> height) {
   return {"size, pixels", fmt::format("\"WxH\" or [W, H], 1 … {} each", largest_side),
           [=](SceneSettings& settings, const toml::node& node, const fs::path&) {
-            std::int64_t sides[2] = {0, 0};
-            if (const toml::array* array = node.as_array()) {
-              if (array->size() != 2) throw Problem{fmt::format("{} numbers are no size", array->size()), ""};
-              for (std::size_t i = 0; i < 2; ++i) sides[i] = whole_of((*array)[i]);
-            } else {
-              const std::string given = text_of(node);
-              const char* const end = given.data() + given.size();
-              const auto cross = std::from_chars(given.data(), end, sides[0]).ptr;
-              const bool shaped = cross != given.data() && cross != end && (*cross == 'x' || *cross == 'X') &&
-                                  cross + 1 != end && std::from_chars(cross + 1, end, sides[1]).ptr == end;
-              if (!shaped) throw Problem{fmt::format("'{}' is not a size like \"1280x1024\"", given), ""};
-            }
-            for (const std::int64_t side : sides) {
-              if (side < 1 || side > largest_side) throw Problem{fmt::format("{} is out of range", side), ""};
-            }
-            width(settings) = static_cast<int>(sides[0]);
-            height(settings) = static_cast<int>(sides[1]);
+            std::tie(width(settings), height(settings)) = size_of(node);
           },
           [=](const SceneSettings& settings) {
             return quoted(fmt::format("{}x{}", read(width, settings), read(height, settings)));
@@ -359,6 +375,14 @@ Kind model_path(Member<fs::path> value) {
               throw Problem{fmt::format("there is no '{}'", path.string()), ""};
             }
             value(settings) = path;
+          },
+          [=](const SceneSettings& settings) { return quoted(read(value, settings).string()); }, true};
+}
+
+Kind file_path(Member<fs::path> value) {
+  return {"path", "an existing file; empty: none",
+          [=](SceneSettings& settings, const toml::node& node, const fs::path& folder) {
+            value(settings) = text_of(node).empty() ? fs::path() : existing_file(node, folder);
           },
           [=](const SceneSettings& settings) { return quoted(read(value, settings).string()); }, true};
 }

@@ -46,6 +46,19 @@ struct Range {
       {};  // what 0 stands for where it lies outside low … high and is allowed all the same
 };
 
+// What a TOML node holds; each throws Problem where it is something else.
+double number_of(const toml::node& node);
+double length_of(const toml::node& node);  // metres; not yet known to be finite
+std::int64_t whole_of(const toml::node& node);
+std::vector<std::string> names_of(const toml::node& node);  // a text or an array of texts, none of them empty
+// The number itself; Problem where it is not finite or out of range.
+double within(double value, const Range& range);
+std::string range_text(const Range& range);
+// The file of a text that has to be there, found from the folder.
+std::filesystem::path existing_file(const toml::node& node, const std::filesystem::path& folder);
+// Width and height of a picture, "1280x1024" or [1280, 1024].
+std::pair<int, int> size_of(const toml::node& node);
+
 // A text as a TOML string with its quotes.
 std::string quoted(const std::string& text);
 
@@ -67,6 +80,7 @@ Kind background(Member<glm::vec3> value, Member<bool> transparent);
 Kind point(Member<glm::dvec3> value);
 
 Kind model_path(Member<std::filesystem::path> value);
+Kind file_path(Member<std::filesystem::path> value);  // empty: none
 Kind rest_pose(Member<std::string> value);
 Kind word_or_file(Member<std::string> value, std::vector<std::string> words);
 // An existing file whose name ends in one of these; empty: none.

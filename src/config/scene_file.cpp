@@ -94,6 +94,16 @@ void check_together(SceneSettings& scene, const Given& given, Complaints& compla
       }
     }
   };
+  std::string bias;  // the key that names the wrinkles of the rest pose; "" stands for none
+  for (const auto& [key, path] :
+       {std::pair("paint", &scene.bias.paint), {"file", &scene.bias.file}, {"field", &scene.bias.field}}) {
+    if (path->empty()) continue;
+    if (!bias.empty()) {
+      complaints.add(given.at(fmt::format("bias.{}", key)),
+                     fmt::format("key '{}': stands beside '{}'; take one of them out", key, bias));
+    }
+    bias = key;
+  }
   const auto *eye = at("eye"), *target = at("target");
   if (eye && !target) complaints.add(*eye, "key 'eye': needs 'target' beside it");
   if (target && !eye) complaints.add(*target, "key 'target': needs 'eye' beside it");
@@ -160,13 +170,7 @@ SceneSettings load_scene(const fs::path& file) {
 
 SceneSettings parse_scene(std::string_view text, const fs::path& file) {
   Complaints complaints(file);
-  toml::table root;
-  try {
-    root = toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    complaints.add(error.source().begin, fmt::format("not TOML: {}", error.description()));
-    complaints.throw_if_any();
-  }
+  const toml::table root = config::parse_toml(text, file);
 
   SceneSettings scene;
   scene.file = file;

@@ -39,6 +39,16 @@ struct WrinkleSettings {
   std::uint32_t seed = 1;
 };
 
+enum class FieldUse { bias, direct };  // docs/passes.md, "Fields"
+
+// Wrinkles of the rest pose; at most one of the paths is given.
+struct BiasSettings {
+  std::filesystem::path paint;  // a paint file, whose strokes are painted when the scene is loaded
+  std::filesystem::path file;   // what `plisse paint` wrote: PLY or uv texture
+  std::filesystem::path field;  // a solved wrinkle field: PLY, or the amplitudes of a set of text files
+  FieldUse use = FieldUse::bias;
+};
+
 struct RelaxSettings {
   RelaxMode mode = RelaxMode::smooth;
   int rounds = 1;              // descent rounds per stepped frame
@@ -94,6 +104,7 @@ struct SceneSettings {
   std::filesystem::path file;  // the scene file, empty for a bare model
   ModelSettings model;
   WrinkleSettings wrinkles;
+  BiasSettings bias;
   RelaxSettings relax;
   CameraSettings camera;
   LightSettings light;

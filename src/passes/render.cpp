@@ -129,6 +129,7 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
   if (look.shadows) defines.emplace_back("SHADOWS", "1");
   if (!look.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
   if (look.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
+  if (look.field) defines.emplace_back("FIELD", "1");
   if (is_sinusoid(profile)) defines.emplace_back("SINUSOID", "1");
   const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
   surface_ = make_programs(files, defines);
@@ -216,6 +217,7 @@ void RenderPass::bind_surface(const SurfaceBuffers& surface) {
   surface.render_vertices.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
   if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_colours; }))
     surface.render_colours.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec4);
+  if (look_.field) surface.field.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
   glBindTextureUnit(1, profile_texture_);
   glBindVertexArray(vertex_array_);
 }
@@ -408,6 +410,7 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   if (aov_.empty()) {
     gpu::Defines defines{{"AOV", "1"}};
     if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
+    if (look_.field) defines.emplace_back("FIELD", "1");
     if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
     aov_ = make_programs({"render.vert", "render.frag"}, defines);
   }

@@ -36,6 +36,7 @@ struct View {
 struct Look {
   bool smooth_blend = true, full_gradient = true;
   bool plain = false;  // no waves at all
+  bool field = false;  // the surface carries a solved wrinkle field (VertexWaves::field)
   bool phong = false;  // with plain: textured Phong, the yardstick of the benchmark
   bool shadows = false, ground = false, wireframe = false;
   double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;

@@ -41,6 +41,13 @@ glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   return trace > 0 ? glm::inverse(s + glm::dmat2(1e-6 * trace)) : glm::dmat2(0.0);
 }
 
+// q = (t·p, b·p), no longer than .99 (docs/passes.md, "Crush").
+glm::vec2 bias_in_frame(const glm::dvec3& p, const glm::dvec3& t, const glm::dvec3& n) {
+  const glm::dvec2 q(glm::dot(t, p), glm::dot(glm::cross(n, t), p));
+  const double length = glm::length(q);
+  return glm::vec2(length > 0.99 ? q * (0.99 / length) : q);
+}
+
 }  // namespace
 
 float initial_phase(std::uint32_t seed, std::uint32_t vertex) {
@@ -89,6 +96,10 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
                      glm::dot(wander, glm::cross(rest.normal[v], rest.tangent[v])));
   }));
   rest_rows = gpu::Buffer(rows);
+  biases = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    return vertex_waves.bias.empty() ? glm::vec2(0)
+                                     : bias_in_frame(vertex_waves.bias[v], rest.tangent[v], rest.normal[v]);
+  }));
 
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];
@@ -105,12 +116,28 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
     return GpuCorner{surface.triangles[i], surface.render_vertices[surface.triangles[i]].welded};
   }));
 
+  if (!vertex_waves.field.empty()) {
+    field = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
+      const FieldTriangle& of = vertex_waves.field[i / 3];
+      const auto& turns = of.turns[i % 3];
+      return glm::vec4(turns[0], turns[1], turns[2], of.amplitude[i % 3] / units.metres);
+    }));
+  }
+
   positions = gpu::Buffer(count * sizeof(glm::vec4));
   frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
   world_waves = gpu::Buffer(count * sizeof(glm::vec4));
-  states = gpu::Buffer(count * sizeof(glm::vec4));
+  const auto starts = [&](std::size_t v) {
+    return !vertex_waves.start_direction.empty() && vertex_waves.start_direction[v] != glm::dvec3(0);
+  };
+  states = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    if (!starts(v)) return glm::vec4(0);
+    const glm::dvec3 k = vertex_waves.start_direction[v], t = rest.tangent[v];
+    return glm::vec4(glm::dot(t, k), glm::dot(glm::cross(rest.normal[v], t), k), 0, 0);
+  }));
   waves = gpu::Buffer(count * sizeof(glm::vec4));
   phases = gpu::Buffer(mapped(count, [&](std::size_t v) {
+    if (starts(v)) return glm::vec2(vertex_waves.start_phase[v], 1);  // set
     return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));

@@ -21,10 +21,11 @@ struct SurfaceBuffers {
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
   gpu::Buffer bind_places, influences, target_deltas;
-  gpu::Buffer offsets, neighbours, rest_rows, constants;
+  gpu::Buffer offsets, neighbours, rest_rows, constants, biases;
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
   gpu::Buffer render_colours;  // one per render vertex where a part has colours, else nothing
+  gpu::Buffer field;  // a corner each: its plane's turns at the three corners, amplitude; or nothing
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).

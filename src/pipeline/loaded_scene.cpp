@@ -11,7 +11,13 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "config/options.h"
+#include "config/paint_file.h"
 #include "config/suggest.h"
+#include "io/import_place.h"
+#include "io/wrinkle_field.h"
+#include "paint/bias_file.h"
+#include "paint/field.h"
 #include "scene/wrinkles.h"
 
 namespace plisse::pipeline {
@@ -89,7 +95,8 @@ LoadedScene::LoadedScene(const SceneSettings& given)
       std::max(glm::distance(bounds_.low, bounds_.high), glm::distance(rest_bounds.low, rest_bounds.high)));
   units.world_centre = 0.5 * (bounds_.low + bounds_.high);
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
-  fit_camera(samples);
+  settings.camera = fitted_camera(settings, samples);
+  take_bias();
 
   Hash& hash = state_base_;
   hash.add(version).add(animation.timeline().frames_per_second).add(preroll_);
@@ -101,6 +108,11 @@ LoadedScene::LoadedScene(const SceneSettings& given)
   add_items(hash, surface().neighbours.items);
   add_items(hash, waves.wavelength);
   add_items(hash, waves.mask);
+  if (!waves.bias.empty()) {
+    add_items(hash, waves.bias);
+    add_items(hash, waves.start_direction);
+    add_items(hash, waves.start_phase);
+  }
   const auto& relax = settings.relax;
   hash.add(relax.mode)
       .add(relax.rounds)
@@ -118,6 +130,7 @@ passes::Look LoadedScene::look() const {
   passes::Look look;
   look.smooth_blend = s.blend == Blend::smooth;
   look.full_gradient = s.gradient == Gradient::full;
+  look.field = !waves.field.empty();
   look.shadows = settings.light.shadows;
   look.ground = settings.output.ground;
   look.wireframe = s.wireframe;
@@ -184,15 +197,16 @@ glm::dvec2 half_film(const SceneSettings& settings) {
 // Where no camera is given, or only its direction: the place nearest to the model from which every sampled
 // point of the clip is in the picture. In the camera's own axes a point (x, y) at depth z is seen where |x −
 // s| ≤ (z + d) tan, so each side of the picture is a plane that the points push outward.
-void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
-  CameraSettings& camera = settings.camera;
-  if (!camera.name.empty() || camera.explicit_pose) return;
+CameraSettings LoadedScene::fitted_camera(const SceneSettings& given,
+                                          const std::vector<glm::dvec3>& samples) const {
+  CameraSettings camera = given.camera;
+  if (!camera.name.empty() || camera.explicit_pose) return camera;
   const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
   const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
   glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), toward);
   right = glm::length(right) > 1e-6 ? glm::normalize(right) : glm::dvec3(1, 0, 0);
   const glm::dvec3 high = glm::cross(toward, right), centre = 0.5 * (bounds_.low + bounds_.high);
-  const glm::dvec2 tangent = half_film(settings) / camera.margin;
+  const glm::dvec2 tangent = half_film(given) / camera.margin;
   glm::dvec4 push(-INFINITY);  // right, left, up, down
   double nearest = -INFINITY;
   for (const glm::dvec3& point : samples) {
@@ -211,6 +225,7 @@ void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
   camera.target = centre + 0.5 * (push[0] - push[1]) * right + 0.5 * (push[2] - push[3]) * high;
   camera.eye = camera.target + distance * toward;
   camera.explicit_pose = true;
+  return camera;
 }
 
 namespace {
@@ -233,12 +248,62 @@ const io::Camera& model_camera(const io::Model& model, const std::string& choice
 
 }  // namespace
 
-passes::View LoadedScene::view(int frame) const {
-  const CameraSettings& camera = settings.camera;
+void LoadedScene::take_bias() {
+  const BiasSettings& given = settings.bias;
+  if (!given.paint.empty()) waves.bias = painted(load_paint(given.paint));
+  if (!given.file.empty()) waves.bias = paint::read_bias(given.file, surface(), rest);
+  if (!given.field.empty()) {
+    const auto field =
+        paint::field_on(surface(), io::read_wrinkle_field(given.field, settings.model.path),
+                        io::file_to_world(model.up, model.metres_per_unit), given.field.string());
+    if (given.use == FieldUse::bias)
+      paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
+    else
+      waves.field = paint::field_directly(surface(), rest, field);
+  }
+}
+
+std::vector<glm::dvec3> LoadedScene::painted(const PaintSettings& paint) const {
+  const paint::Canvas canvas{surface(), rest, [this](const PaintStroke& stroke) { return screen(stroke); }};
+  return paint::paint(canvas, paint.strokes);
+}
+
+paint::Screen LoadedScene::screen(const PaintStroke& stroke) const {
+  // An animation of its own: the scene's is asked for its frames in order.
+  Animation posing(model, choice_of(settings.model));
+  if (stroke.frame > posing.timeline().frame_count) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: there is no frame {}; the clip has {}", stroke.place,
+                                                 stroke.frame, posing.timeline().frame_count));
+  }
+  SceneSettings given = settings;
+  if (stroke.width > 0) {
+    given.output.width = stroke.width;
+    given.output.height = stroke.height;
+  }
+  if (!stroke.camera.empty()) {
+    given.camera = {};
+    try {
+      apply_options(given, {{"--camera", {stroke.camera}}});
+    } catch (const Error& error) {
+      throw Error(ExitCode::bad_input, fmt::format("{}: camera: {}", stroke.place, error.what()));
+    }
+    given.camera = fitted_camera(given, posing.samples());
+  }
+  paint::Screen screen;
+  screen.view_projection = view(stroke.frame, given).view_projection;
+  screen.width = given.output.width;
+  screen.height = given.output.height;
+  for (const glm::dvec3& x : posed(surface(), posing.pose(stroke.frame)))
+    screen.positions.push_back(units.world(x));
+  return screen;
+}
+
+passes::View LoadedScene::view(int frame, const SceneSettings& given) const {
+  const CameraSettings& camera = given.camera;
   const glm::dvec3 up(0, 1, 0), centre = 0.5 * (bounds_.low + bounds_.high);
   const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
   double half_height = 0;  // of a parallel projection
-  double tan_x = half_film(settings).x, tan_y = half_film(settings).y;
+  double tan_x = half_film(given).x, tan_y = half_film(given).y;
   glm::dvec3 eye = camera.eye, forward = glm::normalize(camera.target - camera.eye), camera_up = up;
   if (!camera.name.empty()) {
     const io::Camera& chosen = model_camera(model, camera.name);
@@ -247,7 +312,7 @@ passes::View LoadedScene::view(int frame) const {
     forward = glm::normalize(-glm::dvec3(place[2]));
     camera_up = glm::normalize(glm::dvec3(place[1]));
     tan_y = std::tan(chosen.vertical_field_of_view / 2);
-    tan_x = tan_y * settings.output.width / settings.output.height;
+    tan_x = tan_y * given.output.width / given.output.height;
     if (chosen.half_height > 0) {
       half_height = chosen.half_height * glm::length(glm::dvec3(place[1])) / units.metres;
       // Parallel rays come from far away; shading wants a point they come from, here right to a thousandth.
@@ -267,7 +332,7 @@ passes::View LoadedScene::view(int frame) const {
   const double distance = glm::distance(view.eye, view.bounds_centre);
   const double far = distance + (settings.output.ground ? 12 : 1.5) * view.bounds_radius;
   const double near = std::max(distance - 1.5 * view.bounds_radius, 1e-3 * (distance + view.bounds_radius));
-  const double half_width = half_height * settings.output.width / settings.output.height;
+  const double half_width = half_height * given.output.width / given.output.height;
   const glm::dmat4 projection =
       half_height > 0 ? glm::ortho(-half_width, half_width, -half_height, half_height, near, far)
                       : glm::frustum(-tan_x * near, tan_x * near, -tan_y * near, tan_y * near, near, far);
@@ -335,6 +400,7 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
   Hash hash = state_hash(step_of_frame(frame));
   hash.add(driver.hex());
   add_items(hash, waves.wander);
+  if (!waves.field.empty()) add_items(hash, waves.field);
   add_items(hash, profile.f);
   add_items(hash, profile.derivative);
   for (const auto& vertex : surface().render_vertices) {

@@ -9,6 +9,7 @@
 #include "io/import.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
+#include "paint/canvas.h"
 #include "passes/model_units.h"
 #include "passes/render.h"
 #include "scene/animation.h"
@@ -33,7 +34,9 @@ class LoadedScene {
   passes::Look look() const;
   std::vector<passes::DrawPart> draw_parts() const;
   std::vector<std::vector<passes::TextureLevel>> texture_levels() const;
-  passes::View view(int frame) const;
+  passes::View view(int frame) const { return view(frame, settings); }
+  // p of every welded vertex after these strokes (paint/canvas.h).
+  std::vector<glm::dvec3> painted(const PaintSettings& paint) const;
 
   // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
   int step_of_frame(int frame) const { return preroll_ + frame; }
@@ -51,7 +54,10 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
-  void fit_camera(const std::vector<glm::dvec3>& samples);
+  void take_bias();
+  paint::Screen screen(const PaintStroke& stroke) const;
+  CameraSettings fitted_camera(const SceneSettings& given, const std::vector<glm::dvec3>& samples) const;
+  passes::View view(int frame, const SceneSettings& given) const;
   void extend(int step);
   int preroll_ = 0;
   Animation::Bounds bounds_;

@@ -67,10 +67,17 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   wander.resize(2, static_cast<Index>(count));
   for (Index v = 0; v < wander.cols(); ++v)
     wander.col(v) = rest_frames.basis(v).transpose() * eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
+  bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
   initial_phases.resize(static_cast<Index>(count));
   for (std::size_t v = 0; v < count; ++v) {
     initial_phases[static_cast<Index>(v)] = static_cast<double>(
         passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
+    const auto& starts = scene.waves.start_direction;
+    initial_states.emplace_back();
+    if (starts.empty() || starts[v] == glm::dvec3(0)) continue;
+    initial_states.back() = {rest_frames.basis(static_cast<Index>(v)).transpose() * eigen(starts[v]),
+                             reference::Status::set};
+    initial_phases[static_cast<Index>(v)] = scene.waves.start_phase[v];
   }
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
@@ -210,6 +217,14 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
         triangle.waves.phases[c] =
             snapshot.phases[v] +
             2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
+        if (!scene.scene.waves.field.empty()) {
+          const auto corner = static_cast<std::size_t>(c);
+          const FieldTriangle& carried = scene.scene.waves.field[t];
+          if (!triangle.field) triangle.field.emplace();
+          triangle.field->amplitudes[c] = carried.amplitude[corner] / scene.scene.units.metres;
+          for (int k = 0; k < 3; ++k)
+            triangle.field->turns(c, k) = carried.turns[corner][static_cast<std::size_t>(k)];
+        }
         triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
         triangle.normal_uv.col(c) = Eigen::Vector2f(vertex.normal_uv.x, vertex.normal_uv.y).cast<double>();
         triangle.colours.col(c) =
@@ -247,7 +262,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
 ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
   now_.phases = scene.initial_phases;
   const auto count = scene.topology.size();
-  now_.states.resize(static_cast<std::size_t>(count));
+  now_.states = scene.initial_states;
   now_.wavenumbers = Eigen::Matrix2Xd::Zero(2, count);
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
@@ -271,7 +286,7 @@ void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
 
 void ReferenceChain::crush_and_relax(bool leads) {
   auto crushed = reference::crush(scene_.topology, scene_.rest_frames, now_.positions, now_.frames,
-                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states);
+                                  scene_.wavelength, scene_.mask, scene_.crush, now_.states, scene_.bias);
   for (std::size_t v = 0; v < crushed.size(); ++v) {
     const auto i = static_cast<Index>(v);
     if (now_.states[v].direction.isZero(0) && crushed[v].direction.dot(first_directions_[v]) < 0) {

@@ -28,6 +28,8 @@ struct ReferenceScene {
   reference::SkinModel skin;
   Eigen::VectorXd wavelength, mask, initial_phases;
   Eigen::Matrix2Xd wander;  // D in (t, b)
+  std::vector<reference::CrushState> initial_states;
+  Eigen::Matrix3Xd bias;  // p, or no columns
   reference::CrushSettings crush;
   reference::RelaxSettings relax;
 };

@@ -145,9 +145,9 @@ void WaveComparison::compare_skin(const WaveSnapshot& gpu) {
 }
 
 void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
-  const auto expected =
-      reference::crush(reference_.topology, reference_.rest_frames, gpu.positions, gpu.frames,
-                       reference_.wavelength, reference_.mask, reference_.crush, before_.states);
+  const auto expected = reference::crush(reference_.topology, reference_.rest_frames, gpu.positions,
+                                         gpu.frames, reference_.wavelength, reference_.mask, reference_.crush,
+                                         before_.states, reference_.bias);
   for (std::size_t v = 0; v < expected.size(); ++v) {
     const auto& e = expected[v];
     const auto i = static_cast<Index>(v);

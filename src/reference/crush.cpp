@@ -79,10 +79,18 @@ CrushResult crush_vertex(const Matrix2d& M, double wavelength, double mask, cons
   return result;
 }
 
+Matrix2d biased(const Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis, const Eigen::Vector3d& p) {
+  Vector2d q = rest_basis.transpose() * p;
+  if (q.norm() > 0.99) q = 0.99 * q.normalized();
+  const Matrix2d shortening = Matrix2d::Identity() - q * q.transpose();
+  return M * shortening;
+}
+
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
                                const Matrix3Xd& positions, const Frames& frames,
                                const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,
-                               const CrushSettings& settings, const std::vector<CrushState>& previous) {
+                               const CrushSettings& settings, const std::vector<CrushState>& previous,
+                               const Matrix3Xd& bias) {
   std::vector<CrushResult> results;
   results.reserve(static_cast<std::size_t>(topology.size()));
   for (Index vertex = 0; vertex < topology.size(); ++vertex) {
@@ -95,7 +103,9 @@ std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_fram
       posed.col(column) = frames.basis(vertex).transpose() * (positions.col(i) - positions.col(vertex));
       ++column;
     }
-    results.push_back(crush_vertex(regression(v, posed), wavelength[vertex], mask[vertex], settings,
+    Matrix2d M = regression(v, posed);
+    if (bias.cols() > 0) M = biased(M, rest_frames.basis(vertex), bias.col(vertex));
+    results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings,
                                    previous[static_cast<std::size_t>(vertex)]));
   }
   return results;

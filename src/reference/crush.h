@@ -52,10 +52,17 @@ double relative_height(double r, double dead_zone);
 CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mask,
                          const CrushSettings& settings, const CrushState& previous);
 
-// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is last frame's state.
+// M(E − q⊗q) with q the components of p in the rest frame (basis: t and b as columns), cut to a length of .99
+// (section 7).
+Eigen::Matrix2d biased(const Eigen::Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis,
+                       const Eigen::Vector3d& p);
+
+// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is last frame's state; `bias`
+// has p of each vertex as columns, or none.
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
                                const Eigen::Matrix3Xd& positions, const Frames& frames,
                                const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,
-                               const CrushSettings& settings, const std::vector<CrushState>& previous);
+                               const CrushSettings& settings, const std::vector<CrushState>& previous,
+                               const Eigen::Matrix3Xd& bias = {});
 
 }  // namespace plisse::reference

@@ -129,13 +129,25 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
     slope_squared[j] =
         0.5 * std::pow(2 * pi * waves.heights[j] * wavenumber[j], 2) * scene.profile.slope_power;
   }
-  const double longest_wavenumber = wavenumber.maxCoeff();
-  const HeightSample wave =
+  double longest_wavenumber = wavenumber.maxCoeff();
+  HeightSample wave =
       height_and_gradient(waves, fragment.barycentric, scene.profile, shading.blend, shading.gradient, fade);
+  double lost_slope = wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
+  double amplitude = wave.weights.dot(waves.heights.cwiseProduct(fade));
+  if (triangle.field) {
+    const CarriedField& field = *triangle.field;
+    const FieldSample carried = sample(field, waves.corners, fragment.barycentric, shading.blend);
+    const Vector2d per_pixel = (wave.weights.transpose() * field.turns * fragment.per_pixel).transpose();
+    const double left = 1 - smoothstep(0.25, 0.5, per_pixel.norm());
+    wave.height += left * carried.height;
+    wave.gradient += left * carried.gradient;
+    amplitude += left * carried.amplitude;
+    lost_slope +=
+        0.5 * std::pow(2 * pi * carried.amplitude, 2) * carried.slope.squaredNorm() * (1 - left * left);
+    const Matrix3d slopes = barycentric_gradients(waves.corners) * field.turns.transpose();
+    longest_wavenumber = std::max(longest_wavenumber, slopes.colwise().norm().maxCoeff());
+  }
   const double height = side * wave.height;
-  const double lost_slope =
-      wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
-  const double amplitude = wave.weights.dot(waves.heights.cwiseProduct(fade));
   const double occlusion = occlusion_of(shading.cavity, amplitude, height, longest_wavenumber);
 
   // Textures, shifted by the parallax.

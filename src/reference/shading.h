@@ -15,6 +15,7 @@ namespace plisse::reference {
 
 struct Triangle {
   WaveTriangle waves;
+  std::optional<CarriedField> field = std::nullopt;
   Eigen::Matrix3d normals;  // posed normals of the corners, columns, unit
   Eigen::Matrix<double, 2, 3> uv{Eigen::Matrix<double, 2, 3>::Zero()};
   Eigen::Matrix<double, 2, 3> normal_uv{Eigen::Matrix<double, 2, 3>::Zero()};  // of the normal map

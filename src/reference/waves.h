@@ -54,4 +54,20 @@ HeightSample height_and_gradient(const WaveTriangle& triangle, const Eigen::Vect
                                  const Profile& profile, Blend blend, Gradient gradient,
                                  const Eigen::Vector3d& fade = Eigen::Vector3d::Ones());
 
+// A solved wrinkle field over one triangle (docs/passes.md, "Fields"): height A cos 2πθ with A and θ blended
+// first.
+struct CarriedField {
+  Eigen::Matrix3d turns;       // row j: the turns of corner j's plane at the three corners
+  Eigen::Vector3d amplitudes;  // a_j
+};
+struct FieldSample {
+  double amplitude = 0;               // A
+  double turns = 0;                   // θ
+  Eigen::Vector3d slope{0, 0, 0};     // ∇θ, turns per length
+  double height = 0;                  // A cos 2πθ
+  Eigen::Vector3d gradient{0, 0, 0};  // of the height
+};
+FieldSample sample(const CarriedField& field, const Eigen::Matrix3d& corners,
+                   const Eigen::Vector3d& barycentric, Blend blend);
+
 }  // namespace plisse::reference

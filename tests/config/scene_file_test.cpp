@@ -252,6 +252,13 @@ TEST_F(SceneFile, CameraKeysThatTakeEachOthersPlace) {
               HasSubstr("beside 'eye' and 'target'"));
 }
 
+TEST_F(SceneFile, BiasComesFromOnePlace) {
+  EXPECT_EQ(parse_after_model("[bias]\nfile = \"model.glb\"\n").bias.file, in_folder("model.glb"));
+  EXPECT_THAT(complaint("[bias]\nfile = \"model.glb\"\npaint = \"model.glb\"\n"),
+              HasSubstr("key 'file': stands beside 'paint'"));
+  EXPECT_THAT(complaint("[bias]\nfile = \"no.ply\"\n"), HasSubstr("there is no file"));
+}
+
 TEST_F(SceneFile, SyntaxErrorsHaveAPlace) {
   // toml++ points at the value it cannot read: line 2, after "path = ".
   EXPECT_THAT(complaints("[model]\npath = model.glb\n"),
@@ -320,6 +327,10 @@ void expect_defaults(const SceneSettings& scene) {
   EXPECT_EQ(scene.wrinkles.dead_zone, fresh.wrinkles.dead_zone);
   EXPECT_EQ(scene.wrinkles.irregularity, fresh.wrinkles.irregularity);
   EXPECT_EQ(scene.wrinkles.seed, fresh.wrinkles.seed);
+  EXPECT_EQ(scene.bias.paint, fresh.bias.paint);
+  EXPECT_EQ(scene.bias.file, fresh.bias.file);
+  EXPECT_EQ(scene.bias.field, fresh.bias.field);
+  EXPECT_EQ(scene.bias.use, fresh.bias.use);
   EXPECT_EQ(scene.relax.mode, fresh.relax.mode);
   EXPECT_EQ(scene.relax.rounds, fresh.relax.rounds);
   EXPECT_EQ(scene.relax.epsilon, fresh.relax.epsilon);
@@ -428,6 +439,10 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"samples", "1"},
                                                      {"background", "\"#010203\""},
                                                      {"dead_zone", "0.25"},
+                                                     {"paint", "\"model.glb\""},
+                                                     {"file", "\"model.glb\""},
+                                                     {"field", "\"model.glb\""},
+                                                     {"use", "\"direct\""},
                                                      {"path", "\"x\""}};
   for (const config::Key& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;

@@ -301,5 +301,20 @@ TEST(ReferenceCrush, MaskScalesHeightAlone) {
   EXPECT_NEAR(crush_vertex(M, 4, 0.3, {}, {}).weight, std::clamp(4 * h - 0.2, 0.0, 1.0), rounding);
 }
 
+// Loviscach 2006, section 7: cloth of a vector p is shortened by |p|² along it before M acts.
+TEST(Crush, BiasShortensBeforeTheAnimation) {
+  Eigen::Matrix<double, 3, 2> basis;  // some rest frame
+  basis.col(0) = Eigen::Vector3d(1, 2, -1).normalized();
+  basis.col(1) = Eigen::Vector3d(1, 0, 1).normalized();
+  const Matrix2d M = (Matrix2d() << 0.9, 0.2, -0.1, 1.1).finished();
+  const Vector2d q(0.3, 0.6);
+  const Eigen::Vector3d p = basis * q + 5 * basis.col(0).cross(basis.col(1));  // a normal part means nothing
+  const Matrix2d result = biased(M, basis, p);
+  const Vector2d across(-q.y(), q.x());
+  EXPECT_LT((result * q - (1 - q.squaredNorm()) * M * q).norm(), 1e-14);  // roundings of numbers about 1
+  EXPECT_LT((result * across - M * across).norm(), 1e-14);
+  EXPECT_NEAR(biased(Matrix2d::Identity(), basis, 30 * p).determinant(), 1 - 0.99 * 0.99, 1e-12);
+}
+
 }  // namespace
 }  // namespace plisse::reference

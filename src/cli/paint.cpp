@@ -1,0 +1,82 @@
+// plisse paint: wrinkles of the rest pose from a file of strokes.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/paint_file.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app) : device(app), common(app) {
+    app.add_option("input", input, described("A paint file; docs/paint.md lists its keys"))
+        ->type_name("PAINT.toml");
+    app.add_option(
+           "-o,--output", folder,
+           described("The folder for bias.ply, bias.png (the uv texture) and preview.png; default: painted"))
+        ->type_name("DIR");
+    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
+  }
+
+  DeviceArguments device;
+  CommonArguments common;
+  std::string input, folder = "painted", shaders;
+};
+
+ordered_json to_json(const PaintReport& report) {
+  ordered_json outputs = ordered_json::array();
+  for (const auto& output : report.outputs) outputs.push_back({{"path", output.path}, {"kind", output.kind}});
+  return {{"vertices", report.vertices},
+          {"painted_vertices", report.painted_vertices},
+          {"largest", report.largest},
+          {"outputs", outputs},
+          {"wall_s", report.wall_s}};
+}
+
+int run_paint(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.device.list_wanted()) {
+    arguments.device.list();
+    return 0;
+  }
+  if (arguments.input.empty())
+    throw Error(ExitCode::bad_input, "plisse paint: give a PAINT.toml; see 'plisse paint --help'");
+  PaintRequest request;
+  request.paint = load_paint(arguments.input);
+  request.folder = arguments.folder;
+  request.device = arguments.device.device();
+  request.shader_folder = arguments.shaders;
+  const PaintReport report = paint_wrinkles(request);
+  log::notice(fmt::format("{} of {} vertices painted, the strongest {:.2f}, in {:.2f} s → {}",
+                          report.painted_vertices, report.vertices, report.largest, report.wall_s,
+                          request.folder));
+  write_report(to_json(report), arguments.common.json());
+  return 0;
+}
+
+}  // namespace
+
+Command add_paint(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("paint", "Paint wrinkles onto the rest pose, from a file of strokes");
+  app->footer(
+      "\nplisse paint sleeve.paint.toml -o painted          bias.ply, bias.png, preview.png\n"
+      "A scene takes it up with [bias] file = \"painted/bias.ply\", or paints itself with [bias] paint = "
+      "\"sleeve.paint.toml\".");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_paint(*arguments); }};
+}
+
+}  // namespace plisse::cli

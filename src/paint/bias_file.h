@@ -1,0 +1,41 @@
+// Painted wrinkles as files: a PLY with one vector a welded vertex, and a picture in uv.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "io/model.h"
+#include "mesh/surface.h"
+
+namespace plisse::paint {
+
+// vertex: x, y, z of the rest pose (metres, y up), bias_x, bias_y, bias_z (p, docs/passes.md); face:
+// vertex_indices. Throws Error(no_output).
+void write_bias_ply(const std::filesystem::path& path, const Surface& surface,
+                    const std::vector<glm::dvec3>& bias);
+
+// p of every welded vertex. Throws Error(bad_input): another number of vertices, others than the model's, |p|
+// ≥ 1.
+std::vector<glm::dvec3> read_bias_ply(const std::filesystem::path& path, const Surface& surface);
+
+// The uv texture: `size`² texels that are data, not colour. Red and green are ½ + ½cos 2θ and ½ + ½sin 2θ, θ
+// the angle of p from growing u toward growing v in the tangent plane (doubled because p and −p are the same,
+// and so that texels may be averaged); blue is |p|. A vertex's own texel has its p whole; texels between
+// interpolate; islands are widened by eight texels, so that filters do not reach the ground (0.5, 0.5, 0).
+// Throws Error(bad_input) where uv cannot carry it: there is none, it leaves 0…1, or different vectors fall
+// on one texel (overlapping islands, or a size too small).
+io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
+                      int size);
+
+// p of every welded vertex, from the texels of its uv (the mean over its seams); 0 where it has no uv. Throws
+// Error(bad_input) for a picture that is not square, or a model without uv. `name` is for messages.
+std::vector<glm::dvec3> decode_bias(const Surface& surface, const RestFrames& rest, const io::Image& image,
+                                    const std::string& name);
+
+// Either, by the file's ending.
+std::vector<glm::dvec3> read_bias(const std::filesystem::path& path, const Surface& surface,
+                                  const RestFrames& rest);
+
+}  // namespace plisse::paint

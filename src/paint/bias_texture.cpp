@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/image.h"
+#include "paint/bias_file.h"
+#include "paint/uv_frames.h"
+
+namespace plisse::paint {
+namespace {
+
+constexpr int widened_by = 8;  // texels
+using Texel = std::array<std::uint8_t, 3>;
+constexpr Texel ground{128, 128, 0};
+
+std::uint8_t byte(double x) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
+}
+
+// p in an orthonormal frame.
+Texel encoded(const glm::dvec2& p) {
+  const double length = glm::length(p), doubled = 2 * std::atan2(p.y, p.x);
+  if (length < 0.5 / 255) return ground;
+  return {byte(0.5 + 0.5 * std::cos(doubled)), byte(0.5 + 0.5 * std::sin(doubled)), byte(length)};
+}
+
+glm::dvec2 decoded(const Texel& texel) {
+  const double length = texel[2] / 255.0;
+  const double angle = 0.5 * std::atan2(texel[1] / 127.5 - 1, texel[0] / 127.5 - 1);
+  return length * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+glm::dvec3 on_the_side_of(const glm::dvec3& b, const glm::dvec3& p) {
+  return glm::dot(b, p) < 0 ? -p : p;
+}
+
+class Texture {
+ public:
+  explicit Texture(int size)
+      : size_(size),
+        texels_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), ground),
+        taken_(texels_.size()) {}
+
+  // Rows from top to bottom, v upward; u = 1 and v = 1 belong to the last texel.
+  std::size_t index(const glm::dvec2& uv) const {
+    const auto place = [&](double x) {
+      return std::clamp(static_cast<int>(std::floor(x * size_)), 0, size_ - 1);
+    };
+    return at(place(uv.x), size_ - 1 - place(uv.y));
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x);
+  }
+  Texel& operator[](std::size_t i) { return texels_[i]; }
+  void set(std::size_t i, const Texel& texel) {
+    texels_[i] = texel;
+    taken_[i] = 1;
+  }
+
+  void widen() {
+    for (int round = 0; round < widened_by; ++round) {
+      const auto taken = taken_;
+      for (int y = 0; y < size_; ++y) {
+        for (int x = 0; x < size_; ++x) {
+          if (!taken[at(x, y)]) take_from_beside(x, y, taken);
+        }
+      }
+    }
+  }
+  io::Image image() const {
+    io::Image image{size_, size_, {}};
+    for (const Texel& texel : texels_)
+      image.rgba.insert(image.rgba.end(), {texel[0], texel[1], texel[2], 255});
+    return image;
+  }
+
+ private:
+  void take_from_beside(int x, int y, const std::vector<std::uint8_t>& taken) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (x + dx < 0 || y + dy < 0 || x + dx >= size_ || y + dy >= size_ || !taken[at(x + dx, y + dy)])
+          continue;
+        return set(at(x, y), texels_[at(x + dx, y + dy)]);
+      }
+    }
+  }
+  int size_;
+  std::vector<Texel> texels_;
+  std::vector<std::uint8_t> taken_;
+};
+
+}  // namespace
+
+io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
+                      int size) {
+  const auto frames = uv_frames(surface, rest);
+  Texture texture(size);
+  bool any = false;
+  for (const Part& part : surface.parts) {
+    if (!part.has_uv) continue;
+    any = true;
+    for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      std::array<glm::dvec2, 3> uv;
+      std::array<const UvFrame*, 3> frame;
+      std::array<glm::dvec3, 3> p;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t id = surface.triangles[3 * t + c];
+        uv[c] = surface.render_vertices[id].uv;
+        frame[c] = &frames[id];
+        p[c] = on_the_side_of(p[0], bias[surface.render_vertices[id].welded]);
+        if (c == 0) p[0] = bias[surface.render_vertices[id].welded];
+        constexpr double rounding = 1e-6;  // of single precision coordinates
+        if (!(uv[c].x >= -rounding && uv[c].y >= -rounding && uv[c].x <= 1 + rounding &&
+              uv[c].y <= 1 + rounding)) {
+          throw Error(
+              ExitCode::bad_input,
+              fmt::format(
+                  "mesh '{}': uv ({:.4g}, {:.4g}) lies outside 0…1, a texture cannot hold what is painted "
+                  "there",
+                  part.mesh, uv[c].x, uv[c].y));
+        }
+      }
+      const glm::dvec2 e1 = uv[1] - uv[0], e2 = uv[2] - uv[0];
+      const double area = e1.x * e2.y - e1.y * e2.x;
+      if (area == 0 || !frame[0]->valid() || !frame[1]->valid() || !frame[2]->valid()) continue;
+      const auto range = [&](double a, double b, double c) {
+        const auto clamped = [&](double x) {
+          return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size)));
+        };
+        return std::pair(clamped(std::floor(std::min({a, b, c}) * size)),
+                         clamped(std::ceil(std::max({a, b, c}) * size)));
+      };
+      const auto [left, right] = range(uv[0].x, uv[1].x, uv[2].x);
+      const auto [low, high] = range(uv[0].y, uv[1].y, uv[2].y);
+      for (int y = low; y < high; ++y) {
+        for (int x = left; x < right; ++x) {
+          const glm::dvec2 d = glm::dvec2((x + 0.5) / size, (y + 0.5) / size) - uv[0];
+          const double b = (d.x * e2.y - d.y * e2.x) / area, c = (e1.x * d.y - e1.y * d.x) / area,
+                       a = 1 - b - c;
+          if (a < 0 || b < 0 || c < 0) continue;
+          const glm::dvec3 here = a * p[0] + b * p[1] + c * p[2];
+          const glm::dvec3 u = a * frame[0]->along_u + b * frame[1]->along_u + c * frame[2]->along_u;
+          const glm::dvec3 v = a * frame[0]->along_v + b * frame[1]->along_v + c * frame[2]->along_v;
+          const glm::dvec2 q(glm::dot(here, u), glm::dot(here, v));
+          const double length = glm::length(q);
+          texture.set(texture.at(x, size - 1 - y),
+                      encoded(length > 0 ? q * (glm::length(here) / length) : q));
+        }
+      }
+    }
+  }
+  if (!any) throw Error(ExitCode::bad_input, "the model has no uv; what is painted fits into no texture");
+
+  // The vertices' own texels last, whole; where two of them ask for different vectors the texture cannot tell
+  // them apart.
+  std::vector<std::uint32_t> owner(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
+                                   0xffffffffU);
+  for (std::uint32_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].valid()) continue;
+    const RenderVertex& vertex = surface.render_vertices[i];
+    const glm::dvec3 p = bias[vertex.welded];
+    const Texel texel = encoded({glm::dot(p, frames[i].along_u), glm::dot(p, frames[i].along_v)});
+    const std::size_t at = texture.index(vertex.uv);
+    if (owner[at] != 0xffffffffU) {
+      const glm::dvec2 mine = decoded(texel), other = decoded(texture[at]);
+      if (std::min(glm::distance(mine, other), glm::distance(mine, -other)) > 1.0 / 255) {
+        throw Error(
+            ExitCode::bad_input,
+            fmt::format(
+                "vertices {} and {} are painted differently but share a texel at uv ({:.4g}, {:.4g}): "
+                "islands overlap there, or {} texels a side are too few",
+                surface.render_vertices[owner[at]].welded, vertex.welded, vertex.uv.x, vertex.uv.y, size));
+      }
+      continue;
+    }
+    owner[at] = i;
+    texture.set(at, texel);
+  }
+  texture.widen();
+  return texture.image();
+}
+
+std::vector<glm::dvec3> decode_bias(const Surface& surface, const RestFrames& rest, const io::Image& image,
+                                    const std::string& name) {
+  if (image.width != image.height) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: is {}x{} pixels; a texture of painted wrinkles is square", name, image.width,
+                            image.height));
+  }
+  const auto frames = uv_frames(surface, rest);
+  const Texture texture(image.width);
+  std::vector<glm::dvec3> bias(surface.vertex_count(), glm::dvec3(0));
+  std::vector<int> counts(surface.vertex_count(), 0);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].valid()) continue;
+    const RenderVertex& vertex = surface.render_vertices[i];
+    const std::uint8_t* rgba = &image.rgba[4 * texture.index(vertex.uv)];
+    const glm::dvec2 q = decoded({rgba[0], rgba[1], rgba[2]});
+    glm::dvec3& p = bias[vertex.welded];
+    p += on_the_side_of(p, q.x * frames[i].along_u + q.y * frames[i].along_v);
+    ++counts[vertex.welded];
+  }
+  for (std::size_t v = 0; v < bias.size(); ++v) {
+    if (counts[v] > 0) bias[v] /= counts[v];
+    if (glm::length(bias[v]) > 0.99) bias[v] *= 0.99 / glm::length(bias[v]);
+  }
+  if (std::all_of(counts.begin(), counts.end(), [](int count) { return count == 0; }))
+    throw Error(ExitCode::bad_input, fmt::format("{}: is a picture in uv, but the model has no uv", name));
+  return bias;
+}
+
+std::vector<glm::dvec3> read_bias(const std::filesystem::path& path, const Surface& surface,
+                                  const RestFrames& rest) {
+  if (path.extension() == ".ply" || path.extension() == ".PLY") return read_bias_ply(path, surface);
+  return decode_bias(surface, rest, io::load_image(path), path.string());
+}
+
+}  // namespace plisse::paint

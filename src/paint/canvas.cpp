@@ -1,0 +1,119 @@
+// After J. Loviscach, Wrinkling Coarse Meshes on the GPU (2006), section 7: the vector of a stroke is blended
+// into the vectors there are, so that no blend is longer than the longest stroke.
+#include "paint/canvas.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "config/suggest.h"
+#include "paint/touch.h"
+
+namespace plisse::paint {
+namespace {
+
+constexpr double longest = 0.99;
+
+void check_names(const Canvas& canvas, const PaintStroke& stroke) {
+  std::set<std::string> known;
+  for (const Part& part : canvas.surface.parts) known.insert({part.mesh, part.material_name});
+  known.erase("");
+  const std::vector<std::string> names(known.begin(), known.end());
+  for (const auto* list : {&stroke.only, &stroke.exclude}) {
+    for (const std::string& name : *list) {
+      if (!known.count(name)) {
+        fail(stroke, fmt::format("'{}' is neither a mesh nor a material of this model{}; there are: {}", name,
+                                 did_you_mean(name, names), fmt::join(names, ", ")));
+      }
+    }
+  }
+}
+
+// p and −p are the same wrinkles: the one on b's side.
+glm::dvec3 on_the_side_of(const glm::dvec3& b, const glm::dvec3& p) {
+  return glm::dot(b, p) < 0 ? -p : p;
+}
+
+// The mean of the neighbours' vectors, laid into the tangent plane with its length kept.
+glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias, std::uint32_t vertex) {
+  const auto& rows = canvas.surface.neighbours;
+  const std::uint32_t begin = rows.offsets[vertex], end = rows.offsets[vertex + 1];
+  if (begin == end) return bias[vertex];
+  glm::dvec3 side = bias[vertex], sum(0);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    if (side == glm::dvec3(0)) side = bias[rows.items[i]];
+    sum += on_the_side_of(side, bias[rows.items[i]]);
+  }
+  sum /= end - begin;
+  return glm::length(sum) * tangent_part(canvas, vertex, sum);
+}
+
+void apply(const Canvas& canvas, const PaintStroke& stroke, const std::vector<Touch>& touches,
+           std::vector<glm::dvec3>& bias) {
+  const std::vector<glm::dvec3> before = bias;
+  for (const Touch& touch : touches) {
+    glm::dvec3& p = bias[touch.vertex];
+    switch (stroke.mode) {
+      case PaintStroke::Mode::paint: {
+        const glm::dvec3 aim = stroke.strength * touch.vector;
+        p = glm::mix(p, on_the_side_of(p, aim), touch.amount);
+        break;
+      }
+      case PaintStroke::Mode::erase:
+        p *= 1 - stroke.strength * touch.amount;
+        break;
+      case PaintStroke::Mode::smooth:
+        p = glm::mix(p, on_the_side_of(p, mean_around(canvas, before, touch.vertex)),
+                     stroke.strength * touch.amount);
+        break;
+    }
+    if (glm::length(p) > longest) p *= longest / glm::length(p);
+  }
+}
+
+std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke& stroke) {
+  switch (stroke.kind) {
+    case PaintStroke::Kind::screen:
+      return {touched_on_screen(canvas, stroke)};
+    case PaintStroke::Kind::surface:
+      return {touched_on_surface(canvas, stroke)};
+    case PaintStroke::Kind::uv:
+      return {touched_in_uv(canvas, stroke)};
+    case PaintStroke::Kind::image:
+      return {touched_by_image(canvas, stroke)};
+    case PaintStroke::Kind::colours:
+      return {touched_by_colours(canvas, stroke)};
+    case PaintStroke::Kind::painted:
+      return {touched_by_painted(canvas, stroke)};
+    case PaintStroke::Kind::random:
+      return touched_at_random(canvas, stroke);
+    case PaintStroke::Kind::fill:
+      break;
+  }
+  return {touched_by_fill(canvas, stroke)};
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<PaintStroke>& strokes) {
+  std::vector<glm::dvec3> bias(canvas.surface.vertex_count(), glm::dvec3(0));
+  for (const PaintStroke& stroke : strokes) {
+    check_names(canvas, stroke);
+    const std::vector<bool> allowed = allowed_vertices(canvas, stroke);
+    bool any = false;
+    for (std::vector<Touch>& touches : touched(canvas, stroke)) {
+      std::erase_if(touches,
+                    [&](const Touch& touch) { return !allowed[touch.vertex] || !(touch.amount > 0); });
+      any = any || !touches.empty();
+      const int rounds = stroke.mode == PaintStroke::Mode::smooth ? stroke.rounds : 1;
+      for (int i = 0; i < rounds; ++i) apply(canvas, stroke, touches, bias);
+    }
+    if (!any)
+      fail(stroke, "this stroke touches no vertex; it lies off the mesh, or off the parts it is limited to");
+  }
+  return bias;
+}
+
+}  // namespace plisse::paint

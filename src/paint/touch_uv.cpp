@@ -1,0 +1,156 @@
+// Strokes given in uv or by files: lines, pictures, vertex colours, and what was painted before.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/colour.h"
+#include "base/error.h"
+#include "io/image.h"
+#include "io/ply.h"
+#include "mesh/weld.h"
+#include "paint/bias_file.h"
+#include "paint/touch.h"
+#include "paint/uv_frames.h"
+
+namespace plisse::paint {
+namespace {
+
+std::vector<UvFrame> needed_uv_frames(const Canvas& canvas, const PaintStroke& stroke) {
+  auto frames = uv_frames(canvas.surface, canvas.rest);
+  if (std::none_of(frames.begin(), frames.end(), [](const UvFrame& f) { return f.valid(); }))
+    fail(stroke, "the stroke is given in uv, but the model has none; use one of kind surface or screen");
+  return frames;
+}
+
+// The strongest touch of each welded vertex, for what was found a render vertex at a time.
+std::vector<Touch> strongest(const std::map<std::uint32_t, Touch>& found) {
+  std::vector<Touch> touches;
+  for (const auto& [vertex, touch] : found) touches.push_back(touch);
+  return touches;
+}
+
+// Brightness times alpha at a uv, bilinear, repeated beyond 0…1.
+double amount_at(const io::Image& image, const glm::dvec2& uv) {
+  const auto texel = [&](int x, int y) {
+    const auto wrapped = [](int i, int n) { return static_cast<std::size_t>(((i % n) + n) % n); };
+    const std::uint8_t* p =
+        &image.rgba[4 * (wrapped(y, image.height) * static_cast<std::size_t>(image.width) +
+                         wrapped(x, image.width))];
+    return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) / 255 * p[3] / 255;
+  };
+  const glm::dvec2 within = uv - glm::floor(uv);
+  const double x = within.x * image.width - 0.5, y = (1 - within.y) * image.height - 0.5;
+  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+  const double s = x - left, t = y - top;
+  return glm::mix(glm::mix(texel(left, top), texel(left + 1, top), s),
+                  glm::mix(texel(left, top + 1), texel(left + 1, top + 1), s), t);
+}
+
+}  // namespace
+
+std::vector<Touch> touched_in_uv(const Canvas& canvas, const PaintStroke& stroke) {
+  const auto frames = needed_uv_frames(canvas, stroke);
+  const auto fixed = fixed_directions(canvas, stroke);
+  std::map<std::uint32_t, Touch> found;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].valid()) continue;
+    const RenderVertex& vertex = canvas.surface.render_vertices[i];
+    const OnLine place = nearest_on_line(stroke.points, glm::dvec3(glm::dvec2(vertex.uv), 0));
+    const double amount = falloff(stroke.falloff, place.distance / stroke.radius);
+    if (!(amount > 0)) continue;
+    glm::dvec3 vector(0);
+    if (!fixed.empty()) {
+      vector = fixed[vertex.welded];
+    } else {
+      const glm::dvec3 along = tangent_part(
+          canvas, vertex.welded, place.tangent.x * frames[i].per_u + place.tangent.y * frames[i].per_v);
+      vector = stroke.direction.kind == PaintDirection::Kind::along
+                   ? along
+                   : glm::cross(canvas.rest.normal[vertex.welded], along);
+    }
+    if (stroke.mode == PaintStroke::Mode::paint && vector == glm::dvec3(0)) continue;
+    Touch& touch = found.try_emplace(vertex.welded, Touch{vertex.welded, 0, {}}).first->second;
+    if (amount > touch.amount) touch = {vertex.welded, amount, vector};
+  }
+  return strongest(found);
+}
+
+std::vector<Touch> touched_by_image(const Canvas& canvas, const PaintStroke& stroke) {
+  const auto frames = needed_uv_frames(canvas, stroke);
+  const auto fixed = fixed_directions(canvas, stroke);
+  const io::Image image = io::load_image(stroke.file);
+  std::map<std::uint32_t, Touch> found;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].valid()) continue;
+    const RenderVertex& vertex = canvas.surface.render_vertices[i];
+    const double amount = amount_at(image, glm::dvec2(vertex.uv));
+    if (!(amount > 0)) continue;
+    Touch& touch = found.try_emplace(vertex.welded, Touch{vertex.welded, 0, {}}).first->second;
+    if (amount > touch.amount)
+      touch = {vertex.welded, amount, fixed.empty() ? glm::dvec3(0) : fixed[vertex.welded]};
+  }
+  return strongest(found);
+}
+
+std::vector<Touch> touched_by_colours(const Canvas& canvas, const PaintStroke& stroke) {
+  const std::string file = stroke.file.string();
+  const io::Ply ply = io::read_ply(stroke.file);
+  const io::PlyElement* vertex = ply.find("vertex");
+  if (!vertex) fail(stroke, fmt::format("{} has no element 'vertex'", file));
+  const auto& x = io::ply_values(*vertex, {"x"}, file);
+  const auto& y = io::ply_values(*vertex, {"y"}, file);
+  const auto& z = io::ply_values(*vertex, {"z"}, file);
+  const auto& red = io::ply_values(*vertex, {"red", "r", "diffuse_red"}, file);
+  const auto& green = io::ply_values(*vertex, {"green", "g", "diffuse_green"}, file);
+  const auto& blue = io::ply_values(*vertex, {"blue", "b", "diffuse_blue"}, file);
+  using Type = io::PlyProperty::Type;
+  const auto* channel = vertex->find("red") ? vertex->find("red") : vertex->find("r");
+  const double full = channel && channel->type == Type::uint16                                        ? 65535
+                      : channel && (channel->type == Type::float32 || channel->type == Type::float64) ? 1
+                                                                                                      : 255;
+  // Sorted along x, so that each vertex of ours looks at few of theirs.
+  const double tolerance = 100 * weld_tolerance(canvas.surface.rest);
+  std::multimap<double, std::pair<glm::dvec3, double>> theirs;
+  for (std::size_t i = 0; i < vertex->count; ++i) {
+    glm::dvec3 at(x[i], y[i], z[i]);
+    if (stroke.up == "z") at = {at.x, at.z, -at.y};
+    if (stroke.up == "x") at = {-at.y, at.x, at.z};
+    theirs.emplace(at.x, std::pair(at, (0.2126 * red[i] + 0.7152 * green[i] + 0.0722 * blue[i]) / full));
+  }
+  const auto fixed = fixed_directions(canvas, stroke);
+  std::vector<Touch> touches;
+  std::size_t missing = 0;
+  for (std::uint32_t v = 0; v < canvas.surface.vertex_count(); ++v) {
+    const glm::dvec3 own = canvas.surface.rest[v];
+    double nearest = tolerance, amount = -1;
+    for (auto i = theirs.lower_bound(own.x - tolerance); i != theirs.end() && i->first <= own.x + tolerance;
+         ++i) {
+      const double distance = glm::distance(own, i->second.first);
+      if (distance <= nearest) {
+        nearest = distance;
+        amount = i->second.second;
+      }
+    }
+    if (amount < 0) ++missing;
+    if (amount > 0) touches.push_back({v, std::min(amount, 1.0), fixed.empty() ? glm::dvec3(0) : fixed[v]});
+  }
+  if (missing > 0) {
+    fail(stroke,
+         fmt::format(
+             "{} of the model's {} welded vertices are not among the {} of {}; export the same rest pose, "
+             "and say 'up' where its up axis is not y",
+             missing, canvas.surface.vertex_count(), vertex->count, file));
+  }
+  return touches;
+}
+
+std::vector<Touch> touched_by_painted(const Canvas& canvas, const PaintStroke& stroke) {
+  const auto bias = read_bias(stroke.file, canvas.surface, canvas.rest);
+  std::vector<Touch> touches;
+  for (std::uint32_t v = 0; v < bias.size(); ++v) touches.push_back({v, 1, bias[v]});
+  return touches;
+}
+
+}  // namespace plisse::paint

@@ -1,0 +1,68 @@
+// plisse paint: the strokes of a paint file as vertices, as a uv texture and as a picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "config/scene_file.h"
+#include "io/png.h"
+#include "paint/bias_file.h"
+#include "pipeline.h"
+#include "pipeline/loaded_scene.h"
+
+namespace plisse {
+
+PaintReport paint_wrinkles(const PaintRequest& request) {
+  const auto started = std::chrono::steady_clock::now();
+  const PaintSettings& paint = request.paint;
+  if (paint.scene.empty()) {
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("{}: key 'scene': missing; name the scene or model to paint on", paint.file.string()));
+  }
+  const bool is_scene = paint.scene.extension() == ".toml" || paint.scene.extension() == ".TOML";
+  SceneSettings settings = is_scene ? load_scene(paint.scene) : bare_scene(paint.scene);
+  settings.bias = {};
+  const pipeline::LoadedScene scene(settings);
+  const auto bias = scene.painted(paint);
+
+  PaintReport report;
+  report.vertices = bias.size();
+  for (const glm::dvec3& p : bias) {
+    report.painted_vertices += p != glm::dvec3(0) ? 1 : 0;
+    report.largest = std::max(report.largest, glm::length(p));
+  }
+  const std::filesystem::path folder = request.folder;
+  const auto written = [&](const std::filesystem::path& path, const char* kind) {
+    report.outputs.push_back({path.string(), kind});
+  };
+  const auto ply = folder / "bias.ply";
+  paint::write_bias_ply(ply, scene.surface(), bias);
+  written(ply, "bias");
+  try {
+    const io::Image texture = paint::encode_bias(scene.surface(), scene.rest, bias, paint.texture_size);
+    io::write_png(folder / "bias.png", texture);
+    written(folder / "bias.png", "texture");
+  } catch (const Error& error) {
+    if (error.code != ExitCode::bad_input) throw;
+    log::warn(fmt::format("no uv texture: {}; {} has it all", error.what(), ply.string()));
+  }
+  if (paint.preview_frame > 0) {
+    RenderRequest preview;
+    preview.scene = settings;
+    preview.scene.bias.file = ply;
+    preview.scene.model.frames = std::to_string(paint.preview_frame);
+    preview.scene.output.path = (folder / "preview.png").string();
+    preview.device = request.device;
+    preview.shader_folder = request.shader_folder;
+    render(preview, {});
+    written(folder / "preview.png", "preview");
+  }
+  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return report;
+}
+
+}  // namespace plisse
