@@ -120,7 +120,7 @@ Command add_verify(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Compare the shaders with the reference, pass by pass");
   app->footer(
       "\nWithout --frames at most eight frames spread over the clip. Exit code 1 where a tolerance is "
-      "exceeded.");
+      "exceeded or nothing is in view.");
   auto arguments = std::make_shared<Arguments>(*app);
   return {app, [arguments] { return run_verify(*arguments); }};
 }
