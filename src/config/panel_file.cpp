@@ -131,11 +131,13 @@ class TableReader {
 };
 
 constexpr const char* curve_allowed =
-    "SVG path data, an array of points [[x, y], …], or { spline = [[x, y], …], closed = true }";
+    "SVG path data, an array of points [[x, y], …], { spline = [[x, y], …], closed = true } or { svg = FILE, "
+    "id = NAME }";
 
 class PanelReader {
  public:
-  PanelReader(PanelFile& file, Complaints& complaints) : file_(file), complaints_(complaints) {}
+  PanelReader(PanelFile& file, const fs::path& folder, Complaints& complaints)
+      : file_(file), folder_(folder), complaints_(complaints) {}
 
   void read(const toml::table& root) {
     double metres = 1;
@@ -295,22 +297,29 @@ class PanelReader {
     return result;
   }
 
+  // One subpath of path data, wherever it is from.
+  template <typename Parse>
+  std::optional<sizing::Polyline> path(TableReader& reader, const std::string& key, const toml::node& node,
+                                       bool closed, const Parse& parse) {
+    try {
+      auto lines = parse();
+      if (lines.size() != 1) {
+        reader.complain(node, key, fmt::format("has {} subpaths; one is wanted", lines.size()));
+        return std::nullopt;
+      }
+      for (dvec2& point : lines[0].points) point *= reader.metres();
+      lines[0].closed |= closed;
+      return without_repeats(std::move(lines[0]));
+    } catch (const Error& error) {
+      reader.complain(node, key, error.what());
+      return std::nullopt;
+    }
+  }
+
   std::optional<sizing::Polyline> curve(TableReader& reader, const std::string& key, const toml::node& node,
                                         bool closed) {
     if (node.is_string()) {
-      try {
-        auto lines = sizing::parse_path(*node.value<std::string>());
-        if (lines.size() != 1) {
-          reader.complain(node, key, fmt::format("has {} subpaths; one is wanted", lines.size()));
-          return std::nullopt;
-        }
-        for (dvec2& point : lines[0].points) point *= reader.metres();
-        lines[0].closed |= closed;
-        return without_repeats(std::move(lines[0]));
-      } catch (const Error& error) {
-        reader.complain(node, key, error.what());
-        return std::nullopt;
-      }
+      return path(reader, key, node, closed, [&] { return sizing::parse_path(*node.value<std::string>()); });
     }
     if (node.is_array()) {
       const auto corners = points(reader, key, node);
@@ -319,6 +328,21 @@ class PanelReader {
     }
     if (node.is_table()) {
       TableReader table(*node.as_table(), key, reader.metres(), complaints_);
+      std::string svg, id;
+      table.text("svg", svg);
+      table.text("id", id);
+      if (!svg.empty()) {
+        table.finish();
+        return path(reader, key, node, closed, [&] {
+          const fs::path name = folder_ / svg;
+          const auto bytes = read_whole_file(name);
+          try {
+            return sizing::parse_svg({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, id);
+          } catch (const Error& error) {
+            throw Error(error.code, fmt::format("{}: {}", name.string(), error.what()));
+          }
+        });
+      }
       const toml::node* through = table.needed("spline", "an array of points [[x, y], …]");
       if (const toml::node* given = table.node("closed")) closed |= given->value_or(false);
       table.finish();
@@ -415,6 +439,7 @@ class PanelReader {
   }
 
   PanelFile& file_;
+  fs::path folder_;  // paths start here
   Complaints& complaints_;
   std::set<std::string> names_;
 };
@@ -436,7 +461,7 @@ PanelFile parse_panels(std::string_view text, const fs::path& file) {
     complaints.throw_if_any();
   }
   PanelFile result;
-  PanelReader(result, complaints).read(root);
+  PanelReader(result, file.parent_path(), complaints).read(root);
   complaints.throw_if_any();
   return result;
 }

@@ -121,7 +121,7 @@ SizeReport size_panels(const SizeRequest& request) {
 
     const SizeScale scale(*sized);
     io::PngOptions small;
-    small.level = 9;  // once a panel, and smooth maps pack well
+    small.level = 6;  // once a panel, and smooth maps pack well
     const auto path = [&](const char* suffix) {
       return report.files.emplace_back(request.folder / (panel.name + suffix));
     };

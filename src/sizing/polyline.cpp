@@ -196,6 +196,33 @@ std::vector<Polyline> parse_path(std::string_view text) {
   return lines;
 }
 
+std::vector<Polyline> parse_svg(std::string_view document, std::string_view id) {
+  // The value of an attribute within one tag: name, =, a quoted text. Names must stand whole ("d", not "id").
+  const auto attribute = [](std::string_view tag, std::string_view name) -> std::string_view {
+    for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
+      if (at == 0 || !std::isspace(static_cast<unsigned char>(tag[at - 1]))) continue;
+      std::size_t quote = tag.find_first_not_of(" \t\r\n", at + name.size());
+      if (quote == std::string_view::npos || tag[quote] != '=') continue;
+      quote = tag.find_first_not_of(" \t\r\n", quote + 1);
+      if (quote == std::string_view::npos || (tag[quote] != '"' && tag[quote] != '\'')) continue;
+      const std::size_t end = tag.find(tag[quote], quote + 1);
+      if (end != std::string_view::npos) return tag.substr(quote + 1, end - quote - 1);
+    }
+    return {};
+  };
+  for (std::size_t at = document.find("<path"); at != std::string_view::npos;
+       at = document.find("<path", at + 1)) {
+    const std::string_view tag = document.substr(at, document.find('>', at) - at);
+    if (!id.empty() && attribute(tag, "id") != id) continue;
+    auto lines = parse_path(attribute(tag, "d"));
+    for (Polyline& line : lines) {
+      for (dvec2& point : line.points) point.y = -point.y;
+    }
+    return lines;
+  }
+  throw Error(ExitCode::bad_input, id.empty() ? "has no <path>" : fmt::format("has no <path id=\"{}\">", id));
+}
+
 Polyline spline_through(const std::vector<dvec2>& points, bool closed) {
   const Polyline line = without_repeats({points, closed});
   const auto& p = line.points;

@@ -24,6 +24,11 @@ struct Polyline {
 // text.
 std::vector<Polyline> parse_path(std::string_view text);
 
+// The path of an SVG document whose `id` it is (its first path where that is empty): its data turned upright,
+// since SVG counts y downward. Transforms and shapes other than paths are passed over. Throws
+// Error(bad_input).
+std::vector<Polyline> parse_svg(std::string_view document, std::string_view id);
+
 // A centripetal Catmull–Rom spline through the points (C. Yuksel et al. 2011), 24 pieces between two of them.
 Polyline spline_through(const std::vector<glm::dvec2>& points, bool closed);
 

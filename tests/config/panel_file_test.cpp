@@ -129,6 +129,29 @@ TEST(PanelFile, ArcsAndBeziersAreSvgs) {
   EXPECT_EQ(sizing::parse_path("M0,0 1,0 1,1zM5 5l1 0 0 1z").size(), 2U);
 }
 
+TEST(PanelFile, CurvesFromSvgFiles) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "a.svg",
+                   "<svg><path id='other' d='M0 0H1V1Z'/>\n<path\n fill=\"none\" id = \"front\"\n d=\"M 0 0 "
+                   "L 40 0 L 40 20\"/></svg>");
+  test::write_text(
+      folder / "p.toml",
+      "units = \"mm\"\nfabric = \"khaki\"\n[[panel]]\noutline = { svg = \"a.svg\", id = \"front\" }\n");
+  const sizing::Polyline outline = load_panels(folder / "p.toml").panels.at(0).outline;
+  ASSERT_EQ(outline.points.size(), 3U);
+  EXPECT_TRUE(outline.closed);
+  EXPECT_DOUBLE_EQ(outline.points[2].x, 0.04);
+  EXPECT_DOUBLE_EQ(outline.points[2].y, -0.02);  // SVG counts downward
+  const auto text = [&](const std::string& curve) {
+    return complaint("fabric = \"khaki\"\n[[panel]]\noutline = { svg = \"" + curve + "\" }");
+  };
+  EXPECT_THAT(text("none.svg"), HasSubstr("none.svg"));
+  EXPECT_THAT(text((folder / "a.svg").string() + "\", id = \"back"), HasSubstr("has no <path id=\"back\">"));
+  // Entities, cut files, tags without data: errors, never more.
+  for (const char* broken : {"", "<path", "<path d=", "<path d='", "<path d=''>", "<path id='d'/>"})
+    EXPECT_THROW(sizing::parse_svg(broken, ""), Error) << broken;
+}
+
 TEST(PanelFile, TheExamplesAreRead) {
   const PanelFile file = load_panels(test::asset("panels.toml"));
   EXPECT_GE(file.panels.size(), 8U);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 
 #include "io/image.h"
@@ -49,6 +50,10 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
     EXPECT_GT(io::load_image(folder / (panel.name + "_map.png")).width, 400);
     EXPECT_GT(io::load_image(folder / (panel.name + "_mesh.png")).width, 400);
   }
+}
+
+TEST(Size, TheExamplesAreAsTheirScriptMakesThem) {
+  EXPECT_EQ(std::system("'" PLISSE_SOURCE_DIR "/tools/make_panels' --check > /dev/null"), 0);
 }
 
 TEST(Size, TheSameFileGivesTheSameBytes) {
