@@ -12,6 +12,7 @@
 #include <string>
 
 #include "base/atomic_file.h"
+#include "base/error.h"
 #include "base/units.h"
 #include "config/complaints.h"
 #include "config/kinds.h"

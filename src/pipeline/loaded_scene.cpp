@@ -270,7 +270,7 @@ std::vector<glm::dvec3> LoadedScene::painted(const PaintSettings& paint) const {
 
 paint::Screen LoadedScene::screen(const PaintStroke& stroke) const {
   // An animation of its own: the scene's is asked for its frames in order.
-  Animation posing(model, choice_of(settings.model));
+  Animation posing(model, choice_of(settings));
   if (stroke.frame > posing.timeline().frame_count) {
     throw Error(ExitCode::bad_input, fmt::format("{}: there is no frame {}; the clip has {}", stroke.place,
                                                  stroke.frame, posing.timeline().frame_count));
