@@ -55,7 +55,8 @@ void main() {
     float squares = sigma1 * sigma1 + sigma2 * sigma2;
     float g = squares > 0.0 ? (sigma1 - sigma2) * (sigma1 + sigma2) / squares : 0.0;
 
-    // k is taken whole the first time, and again by a vertex that was idle; then follows with the certainty of the new direction (contract, "Direction").
+    // k is taken whole the first time, and again by a vertex that was idle; then follows with the certainty of the new
+    // direction (contract, "Direction").
     float status = phase(v).y;
     vec2 k = state(v).xy, toward = dot(k, v2) < 0.0 ? -v2 : v2;
     bool has_direction = dot(k, k) > 0.0 && (always_set || status != idle);

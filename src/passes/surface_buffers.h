@@ -25,7 +25,7 @@ struct SurfaceBuffers {
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
   gpu::Buffer render_colours;  // one per render vertex where a part has colours, else nothing
-  gpu::Buffer field;  // a corner each: its plane's turns at the three corners, amplitude; or nothing
+  gpu::Buffer field;           // a corner each: its plane's turns at the three corners, amplitude; or nothing
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).

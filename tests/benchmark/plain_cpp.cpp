@@ -57,12 +57,12 @@ void crush_vertex(PlainSurface& surface, std::size_t v, float dead_zone) {
   const float g = squares > 0 ? (sigma1 * sigma1 - sigma2 * sigma2) / squares : 0;
 
   glm::vec2 k = surface.states[v].direction;
-  bool has_direction = k.x != 0 || k.y != 0;
+  const glm::vec2 toward = glm::dot(k, v2) < 0 ? -v2 : v2;
+  bool has_direction = (k.x != 0 || k.y != 0) && surface.phases[v].status != idle;
   if (has_direction) {
-    const glm::vec2 toward = glm::dot(k, v2) < 0 ? -v2 : v2;
     k = glm::normalize(k + std::min(g / isotropy, 1.0F) * (toward - k));
   } else if (g > isotropy) {
-    k = v2;
+    k = toward;
     has_direction = true;
   }
   const glm::vec2 u1 = sigma1 > 0 ? glm::vec2(ma * v1.x + mb * v1.y, mc * v1.x + md * v1.y) / sigma1 : v1;

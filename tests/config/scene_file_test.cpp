@@ -22,7 +22,10 @@ using testing::Not;
 
 class SceneFile : public testing::Test {
  protected:
-  SceneFile() { test::write_text(folder_ / "model.glb", "not read here"); }
+  SceneFile() {
+    test::write_text(folder_ / "model.glb", "not read here");
+    test::write_text(folder_ / "walk.mdd", "nor this");
+  }
 
   SceneSettings parse(const std::string& text) const { return parse_scene(text, file()); }
   // A scene with a model and these lines after it; they start in line 3.
@@ -443,6 +446,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"file", "\"model.glb\""},
                                                      {"field", "\"model.glb\""},
                                                      {"use", "\"direct\""},
+                                                     {"cache", "\"walk.mdd\""},
                                                      {"path", "\"x\""}};
   for (const config::Key& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;
