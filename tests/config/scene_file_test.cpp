@@ -447,6 +447,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"field", "\"model.glb\""},
                                                      {"use", "\"direct\""},
                                                      {"cache", "\"walk.mdd\""},
+                                                     {"memory_mib", "100"},
                                                      {"path", "\"x\""}};
   for (const config::Key& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;
