@@ -1,6 +1,7 @@
 // Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
 // texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; SINUSOID, whose profile
-// needs no table; ALPHA, for materials that are masked or blended (a discard, though never taken, costs 8 %).
+// needs no table; ALPHA, for materials that are masked or blended (a discard, though never taken, costs 8 %); NORMAL_MAP and
+// VERTEX_COLOURS, for those that have them.
 #include "common/constants.glsl"
 
 #define INTERFACE in
@@ -10,6 +11,9 @@
 
 layout(binding = 0) uniform sampler2D base_colour_map;
 layout(binding = 1) uniform sampler1D profile;   // f, f' over one period
+#ifdef NORMAL_MAP
+layout(binding = 5) uniform sampler2D normal_map;
+#endif
 #ifdef ALPHA
 uniform float alpha_cutoff;   // below it nothing is drawn
 uniform bool has_alpha;
@@ -99,13 +103,30 @@ Wrinkle wrinkle_at(vec3 b) {
 }
 #endif
 
+#ifdef NORMAL_MAP
+// Where a coordinate with gradient g grows along the surface, unit.
+vec3 growth(vec3 g, vec3 n) {
+    vec3 along_surface = g - dot(g, n) * n;
+    return along_surface * inversesqrt(max(dot(along_surface, along_surface), 1e-30));
+}
+#endif
+
+float texture_level(vec2 across, vec2 down) {
+    return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+}
+
 void main() {
     vec3 v = normalize(to_eye);
     float side = dot(plane, to_eye) < 0.0 ? -1.0 : 1.0;
     vec3 n = normalize(normal), ns = side * n, N = ns;
     float lost_slope = 0.0, occlusion = 1.0;
     vec2 at = uv;
-    vec2 across = dFdx(uv) * texels, down = dFdy(uv) * texels;
+    float level = texture_level(dFdx(uv) * texels, dFdy(uv) * texels);
+#ifdef NORMAL_MAP
+    float normal_level = texture_level(dFdx(normal_uv) * relief.xy, dFdy(normal_uv) * relief.xy);
+    vec3 gradient = vec3(0.0);
+    vec2 normal_at = normal_uv;
+#endif
 #ifndef PLAIN
     vec3 b = vec3(1.0 - weights.x - weights.y, weights);
     Wrinkle wrinkle = Wrinkle(0.0, vec3(0.0), 0.0, 0.0);
@@ -123,10 +144,21 @@ void main() {
         vec3 shift = (v - c * ns) * (c / (c * c + 0.1) * height * lit_from[2].w * smoothstep(0.0, 0.2, c));
         shift *= min(1.0, heights.w * inversesqrt(max(dot(shift, shift), 1e-30)));
         at += vec2(dot(gradient_u, shift), dot(gradient_v, shift));
+#ifdef NORMAL_MAP
+        gradient = wrinkle.gradient;
+        normal_at += vec2(dot(gradient_normal_u, shift), dot(gradient_normal_v, shift));
+#endif
     }
 #endif
-    float level = 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+#ifdef NORMAL_MAP
+    vec3 m = 2.0 * textureLod(normal_map, normal_at, normal_level).xyz - 1.0;
+    m = vec3(relief.z * m.xy, max(m.z, 0.05));
+    N = side * normalize(m.z * (n - gradient) + m.x * growth(gradient_normal_u, n) + m.y * growth(gradient_normal_v, n));
+#endif
     vec4 albedo = base * textureLod(base_colour_map, at, level);
+#ifdef VERTEX_COLOURS
+    albedo *= tint;
+#endif
     float alpha = 1.0;
 #ifdef ALPHA
     if (albedo.a < alpha_cutoff) discard;

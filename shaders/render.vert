@@ -4,10 +4,16 @@
 #include "common/scene.glsl"
 
 layout(binding = 17) uniform usamplerBuffer corners;          // render vertex, welded vertex; three a triangle
-layout(binding = 18) uniform samplerBuffer render_vertices;   // rest normal as components of (t, b, n), u; v, unused
+layout(binding = 18) uniform samplerBuffer render_vertices;   // rest normal as components of (t, b, n), u; v, the normal map's uv
 
 uniform vec4 base_colour;     // linear
 uniform vec2 texture_size;    // texels
+#ifdef NORMAL_MAP
+uniform vec3 normal_map_size;  // texels; scale
+#endif
+#ifdef VERTEX_COLOURS
+layout(binding = 19) uniform samplerBuffer render_colours;
+#endif
 
 #define INTERFACE out
 #define FLAT flat out
@@ -19,7 +25,7 @@ void main() {
     uint first = 3u * uint(gl_VertexID / 3), corner = uint(gl_VertexID % 3);
     uint id[3];
     vec3 p[3], n[3], t[3], facing = vec3(0.0);
-    vec2 uvs[3];
+    vec2 uvs[3], normal_uvs[3];
     for (uint i = 0u; i < 3u; ++i) {
         uvec2 ids = texelFetch(corners, int(first + i)).xy;
         id[i] = ids.y;
@@ -27,7 +33,12 @@ void main() {
         t[i] = frame_tangent(id[i]);
         n[i] = frame_normal(id[i]);
         vec4 own = texelFetch(render_vertices, 2 * int(ids.x));
-        uvs[i] = vec2(own.w, texelFetch(render_vertices, 2 * int(ids.x) + 1).x);
+        vec4 more = texelFetch(render_vertices, 2 * int(ids.x) + 1);
+        uvs[i] = vec2(own.w, more.x);
+        normal_uvs[i] = more.yz;
+#ifdef VERTEX_COLOURS
+        if (i == corner) tint = texelFetch(render_colours, int(ids.x));
+#endif
         vec3 c = own.xyz, posed_normal = c.x * t[i] + c.y * cross(n[i], t[i]) + c.z * n[i];
         facing += posed_normal;
         if (i == corner) normal = posed_normal;
@@ -53,6 +64,15 @@ void main() {
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
     plane = dot(area, facing) < 0.0 ? -area : area;
+    float square = dot(area, area);
+    vec3 slope_beta = safe_divide(cross(c, area), square), slope_gamma = safe_divide(cross(area, b), square);
+#ifdef NORMAL_MAP
+    normal_uv = normal_uvs[corner];
+    relief = normal_map_size;
+    vec2 second = normal_uvs[1] - normal_uvs[0], third = normal_uvs[2] - normal_uvs[0];
+    gradient_normal_u = second.x * slope_beta + third.x * slope_gamma;
+    gradient_normal_v = second.y * slope_beta + third.y * slope_gamma;
+#endif
 #ifndef PLAIN
     weights = vec2(corner == 1u, corner == 2u);
     vec3 wavenumbers[3];
@@ -79,9 +99,8 @@ void main() {
     wavenumber_b = wavenumbers[1];
     wavenumber_c = wavenumbers[2];
 #endif
-    float square = dot(area, area);
-    gradient_beta = safe_divide(cross(c, area), square);
-    gradient_gamma = safe_divide(cross(area, b), square);
+    gradient_beta = slope_beta;
+    gradient_gamma = slope_gamma;
     vec3 d = p[2] - p[1];
     along = vec3(safe_divide(vec3(dot(-b, d)), dot(d, d)).x, safe_divide(vec3(dot(-d, -c)), dot(c, c)).x,
                  safe_divide(vec3(dot(c, b)), dot(b, b)).x);

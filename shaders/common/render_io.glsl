@@ -8,6 +8,12 @@ INTERFACE Varyings {
     vec3 tau;           // the three waves' phases here, turns; linear over the triangle
     vec2 weights;       // barycentric β, γ
 #endif
+#ifdef NORMAL_MAP
+    vec2 normal_uv;
+#endif
+#ifdef VERTEX_COLOURS
+    vec4 tint;          // linear
+#endif
 #ifdef SHADOWS
     vec3 shadow_place;  // in the key light's depth map, nearer by the depth offset
 #endif
@@ -38,6 +44,11 @@ FLAT vec4 lit_by[3];          // its colour; the components of up
 FLAT vec4 ambient_light;      // colour A; sheen
 FLAT vec4 base;               // the material's colour
 FLAT vec2 texels;             // size of its texture
+#ifdef NORMAL_MAP
+FLAT vec3 gradient_normal_u;  // of the normal map's coordinates
+FLAT vec3 gradient_normal_v;
+FLAT vec3 relief;             // size of the normal map; its scale
+#endif
 #ifdef SHADOWS
 FLAT vec4 shadow_steps[3];    // where 1.5 texels along x, y, z lead to in the map; the size of a texel in it
 #endif

@@ -79,7 +79,8 @@ ordered_json meshes_of(const io::Model& model, const Surface& surface) {
          {"bones", mesh.bones.size()},
          {"max_influences", mesh.file_max_influences},
          {"morphs", mesh.targets.size()},
-         {"uv", !mesh.uvs.empty()}});
+         {"uv", !mesh.uvs.empty()},
+         {"colours", !mesh.colours.empty()}});
   }
   return meshes;
 }
@@ -95,13 +96,13 @@ ordered_json materials_of(const io::Model& model) {
     const char* const alpha = material.alpha == io::Material::Alpha::mask    ? "mask"
                               : material.alpha == io::Material::Alpha::blend ? "blend"
                                                                              : "opaque";
-    ordered_json texture = nullptr;
-    if (material.base_colour_texture >= 0) {
-      texture = model.textures[static_cast<std::size_t>(material.base_colour_texture)].name;
-    }
+    const auto texture = [&](int id) {
+      return id < 0 ? ordered_json(nullptr) : ordered_json(model.textures[static_cast<std::size_t>(id)].name);
+    };
     materials.push_back({{"name", material.name},
                          {"meshes", users},
-                         {"texture", texture},
+                         {"texture", texture(material.base_colour_texture)},
+                         {"normal_map", texture(material.normal_texture)},
                          {"alpha", alpha},
                          {"two_sided", material.two_sided}});
   }
@@ -122,8 +123,12 @@ ordered_json clips_of(const io::Model& model) {
 ordered_json to_json(const io::Model& model, const Animation& animation) {
   ordered_json cameras = ordered_json::array(), textures = ordered_json::array();
   for (const io::Camera& camera : model.cameras) {
+    const bool parallel = camera.half_height > 0;
     cameras.push_back(
-        {{"name", camera.name}, {"vertical_field_of_view_deg", glm::degrees(camera.vertical_field_of_view)}});
+        {{"name", camera.name},
+         {"vertical_field_of_view_deg",
+          parallel ? ordered_json(nullptr) : ordered_json(glm::degrees(camera.vertical_field_of_view))},
+         {"half_height", parallel ? ordered_json(camera.half_height) : ordered_json(nullptr)}});
   }
   for (const io::Texture& texture : model.textures) {
     textures.push_back(
@@ -227,9 +232,10 @@ std::string table(const ordered_json& info) {
     for (const ordered_json& mesh : material["meshes"])
       meshes += (meshes.empty() ? "" : ", ") + mesh.get<std::string>();
     return padded(material["name"].get<std::string>(), width) +
-           fmt::format("{}, {}, texture {}; on {}", material["alpha"].get<std::string>(),
+           fmt::format("{}, {}, texture {}, normal map {}; on {}", material["alpha"].get<std::string>(),
                        material["two_sided"].get<bool>() ? "two-sided" : "single-sided",
-                       name_of(material["texture"]), meshes.empty() ? "nothing" : meshes);
+                       name_of(material["texture"]), name_of(material["normal_map"]),
+                       meshes.empty() ? "nothing" : meshes);
   });
   section("clips", info["clips"], [](const ordered_json& clip, std::size_t width) {
     return padded(clip["name"].get<std::string>(), width) +
@@ -243,7 +249,10 @@ std::string table(const ordered_json& info) {
   }
   section("cameras", info["cameras"], [](const ordered_json& camera, std::size_t width) {
     return padded(camera["name"].get<std::string>(), width) +
-           fmt::format("{:.4g}° from bottom to top", camera["vertical_field_of_view_deg"].get<double>());
+           (camera["half_height"].is_null() ? fmt::format("{:.4g}° from bottom to top",
+                                                          camera["vertical_field_of_view_deg"].get<double>())
+                                            : fmt::format("parallel, {:.4g} from bottom to top",
+                                                          2 * camera["half_height"].get<double>()));
   });
   section("textures", info["textures"], [](const ordered_json& texture, std::size_t width) {
     return padded(texture["name"].get<std::string>(), width) +

@@ -35,6 +35,8 @@ struct RenderVertex {
   std::uint32_t welded = 0;
   glm::vec2 uv{0};            // v upward
   glm::vec3 normal{0, 1, 0};  // unit, in the rest pose
+  glm::vec2 normal_uv{0};     // of the normal map; v upward
+  glm::vec4 colour{1};        // linear, multiplies the material's
 };
 
 // A run of triangles that came from one mesh instance: the unit of selection and of material.
@@ -46,6 +48,7 @@ struct Part {
   std::uint32_t triangle_count = 0;
   bool wrinkles = true;  // false: selected out, its vertices have mask 0
   bool has_uv = false;
+  bool has_colours = false;
 };
 
 struct Surface {

@@ -97,6 +97,13 @@ bool has_holes(const DrawPart& part) {
   return part.has_alpha || part.alpha_cutoff > 0;
 }
 
+// What the material of a part needs beyond the plain shader; each costs time, so only those who use it pay.
+constexpr unsigned with_alpha = 1, with_normal_map = 2, with_colours = 4;
+unsigned features_of(const DrawPart& part) {
+  return (has_holes(part) ? with_alpha : 0U) | (part.normal_texture >= 0 ? with_normal_map : 0U) |
+         (part.has_colours ? with_colours : 0U);
+}
+
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
   glm::dvec3 across, along, origin;
@@ -124,11 +131,7 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
   if (look.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
   if (is_sinusoid(profile)) defines.emplace_back("SINUSOID", "1");
   const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
-  surface_ = gpu::Program(files, defines, shader_folder);
-  if (std::any_of(parts_.begin(), parts_.end(), has_holes)) {
-    defines.emplace_back("ALPHA", "1");
-    surface_with_alpha_ = gpu::Program(files, defines, shader_folder);
-  }
+  surface_ = make_programs(files, defines);
   if (look.shadows || look.ground) depth_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.wireframe) lines_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.ground) {
@@ -211,6 +214,8 @@ void RenderPass::bind_surface(const SurfaceBuffers& surface) {
   surface.bind_for_reading();
   surface.triangle_corners.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::uvec2);
   surface.render_vertices.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
+  if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_colours; }))
+    surface.render_colours.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec4);
   glBindTextureUnit(1, profile_texture_);
   glBindVertexArray(vertex_array_);
 }
@@ -294,16 +299,36 @@ void RenderPass::draw_backdrop(const View& view) {
   glEnable(GL_DEPTH_TEST);
 }
 
-void RenderPass::draw_parts(const gpu::Program& whole, const gpu::Program& cut, bool blended) {
+RenderPass::Programs RenderPass::make_programs(const std::vector<std::string>& files,
+                                               const gpu::Defines& defines) const {
+  Programs programs;
+  for (const DrawPart& part : parts_) {
+    const unsigned features = features_of(part);
+    if (programs.contains(features)) continue;
+    gpu::Defines all = defines;
+    if (features & with_alpha) all.emplace_back("ALPHA", "1");
+    if (features & with_normal_map) all.emplace_back("NORMAL_MAP", "1");
+    if (features & with_colours) all.emplace_back("VERTEX_COLOURS", "1");
+    programs.emplace(features, gpu::Program(files, all, shader_folder_));
+  }
+  return programs;
+}
+
+void RenderPass::draw_parts(const Programs& programs, bool blended) {
   for (const auto& part : parts_) {
     if (part.has_alpha != blended || part.triangle_count == 0) continue;
-    const gpu::Program& program = has_holes(part) ? cut : whole;
+    const gpu::Program& program = programs.at(features_of(part));
     program.use();
     const Texture& texture =
         part.texture >= 0 ? textures_[static_cast<std::size_t>(part.texture)] : textures_.back();
     texture.bind(0);
     uniform(program, "base_colour", part.base_colour);
     uniform(program, "texture_size", glm::vec2(texture.width(), texture.height()));
+    if (part.normal_texture >= 0) {
+      const Texture& map = textures_[static_cast<std::size_t>(part.normal_texture)];
+      map.bind(5);
+      uniform(program, "normal_map_size", glm::dvec3(map.width(), map.height(), part.normal_scale));
+    }
     uniform(program, "alpha_cutoff", part.alpha_cutoff);
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
@@ -356,12 +381,12 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   if (backdrop) draw_backdrop(view);
   glEnable(GL_DEPTH_TEST);
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
-  draw_parts(surface_, surface_with_alpha_, false);
+  draw_parts(surface_, false);
   if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; })) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
     glDepthMask(GL_FALSE);
-    draw_parts(surface_, surface_with_alpha_, true);
+    draw_parts(surface_, true);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
   }
@@ -380,11 +405,11 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
 
 void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                           Aov aov) {
-  if (aov_.id() == 0) {
-    gpu::Defines defines{{"AOV", "1"}, {"ALPHA", "1"}};
+  if (aov_.empty()) {
+    gpu::Defines defines{{"AOV", "1"}};
     if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
     if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
-    aov_ = gpu::Program({"render.vert", "render.frag"}, defines, shader_folder_);
+    aov_ = make_programs({"render.vert", "render.frag"}, defines);
   }
   glDisable(GL_FRAMEBUFFER_SRGB);
   bind_surface(surface);
@@ -394,11 +419,13 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  aov_.use();
-  uniform(aov_, "aov", static_cast<int>(aov));
-  uniform(aov_, "view_forward", view.forward);
-  draw_parts(aov_, aov_, false);
-  draw_parts(aov_, aov_, true);
+  for (const auto& [features, program] : aov_) {
+    program.use();
+    uniform(program, "aov", static_cast<int>(aov));
+    uniform(program, "view_forward", view.forward);
+  }
+  draw_parts(aov_, false);
+  draw_parts(aov_, true);
   gpu::check("while rendering an AOV");
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,11 @@ struct DrawPart {
   std::uint32_t first_triangle = 0, triangle_count = 0;
   glm::vec4 base_colour{1};  // linear
   int texture = -1;
-  bool has_alpha = false;  // blended after the opaque parts
-  float alpha_cutoff = 0;  // > 0: masked
+  int normal_texture = -1;
+  float normal_scale = 1;
+  bool has_colours = false;  // of its vertices
+  bool has_alpha = false;    // blended after the opaque parts
+  float alpha_cutoff = 0;    // > 0: masked
   bool two_sided = true;
 };
 
@@ -91,8 +95,10 @@ class RenderPass {
   void draw_ground_map(const View& view);
   void clear(bool with_depth);
   void draw_backdrop(const View& view);
-  // Opaque and masked parts, or blended ones; `cut` draws those that are masked or blended.
-  void draw_parts(const gpu::Program& whole, const gpu::Program& cut, bool blended);
+  // A program for every set of features that the parts' materials need (render.cpp, features_of).
+  using Programs = std::map<unsigned, gpu::Program>;
+  Programs make_programs(const std::vector<std::string>& files, const gpu::Defines& defines) const;
+  void draw_parts(const Programs& programs, bool blended);  // opaque and masked parts, or blended ones
   unsigned depth_map(unsigned& framebuffer, int size);
 
   Look look_;
@@ -100,7 +106,8 @@ class RenderPass {
   std::vector<DrawPart> parts_;
   std::vector<Texture> textures_;  // the last is white, for parts without one
   std::string shader_folder_;
-  gpu::Program surface_, surface_with_alpha_, aov_, depth_, lines_, backdrop_, ground_cast_, ground_blur_;
+  Programs surface_, aov_;
+  gpu::Program depth_, lines_, backdrop_, ground_cast_, ground_blur_;
   gpu::Buffer scene_;
   unsigned vertex_array_ = 0, profile_texture_ = 0;
   unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;

@@ -1,5 +1,7 @@
 #include "passes/surface_buffers.h"
 
+#include <algorithm>
+
 #include <glm/gtc/constants.hpp>
 
 namespace plisse::passes {
@@ -94,8 +96,11 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
                      m = glm::dvec3(vertex.normal);
     return GpuRenderVertex{
         glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n), vertex.uv.x),
-        glm::vec4(vertex.uv.y, 0, 0, 0)};
+        glm::vec4(vertex.uv.y, vertex.normal_uv, 0)};
   }));
+  if (std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& p) { return p.has_colours; }))
+    render_colours = gpu::Buffer(mapped(surface.render_vertices.size(),
+                                        [&](std::size_t i) { return surface.render_vertices[i].colour; }));
   triangle_corners = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
     return GpuCorner{surface.triangles[i], surface.render_vertices[surface.triangles[i]].welded};
   }));

@@ -24,6 +24,7 @@ struct SurfaceBuffers {
   gpu::Buffer offsets, neighbours, rest_rows, constants;
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
+  gpu::Buffer render_colours;  // one per render vertex where a part has colours, else nothing
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).

@@ -23,7 +23,7 @@ const std::array<double, 256>& linear_of_byte() {
 }
 
 TextureLevel halved(const TextureLevel& from) {
-  TextureLevel to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
+  TextureLevel to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}, from.srgb};
   to.rgba.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height) * 4);
   const auto& linear = linear_of_byte();
   for (int y = 0; y < to.height; ++y) {
@@ -39,7 +39,8 @@ TextureLevel halved(const TextureLevel& from) {
                          4];
           // Transparent texels still count a little, or a wholly transparent block would have no colour.
           const double weight = texel[3] / 255.0 + 1e-6;
-          for (std::size_t c = 0; c < 3; ++c) colour[c] += weight * linear[texel[c]];
+          for (std::size_t c = 0; c < 3; ++c)
+            colour[c] += weight * (from.srgb ? linear[texel[c]] : texel[c] / 255.0);
           alpha += weight;
         }
       }
@@ -47,8 +48,8 @@ TextureLevel halved(const TextureLevel& from) {
                               static_cast<std::size_t>(x)) *
                              4];
       for (std::size_t c = 0; c < 3; ++c) {
-        texel[c] =
-            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(1.0, colour[c] / alpha))));
+        const double mean = std::min(1.0, colour[c] / alpha);
+        texel[c] = static_cast<std::uint8_t>(std::lround(255 * (from.srgb ? linear_to_srgb(mean) : mean)));
       }
       texel[3] = static_cast<std::uint8_t>(std::lround(std::clamp(255 * (alpha - 4e-6) / 4, 0.0, 255.0)));
     }
@@ -58,8 +59,9 @@ TextureLevel halved(const TextureLevel& from) {
 
 }  // namespace
 
-std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<std::uint8_t>& rgba) {
-  std::vector<TextureLevel> levels{{width, height, rgba}};
+std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<std::uint8_t>& rgba,
+                                     bool srgb) {
+  std::vector<TextureLevel> levels{{width, height, rgba, srgb}};
   while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
   return levels;
 }
@@ -67,7 +69,8 @@ std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<st
 Texture::Texture(const std::vector<TextureLevel>& levels)
     : width_(levels.front().width), height_(levels.front().height) {
   glCreateTextures(GL_TEXTURE_2D, 1, &id_);
-  glTextureStorage2D(id_, static_cast<GLsizei>(levels.size()), GL_SRGB8_ALPHA8, width_, height_);
+  glTextureStorage2D(id_, static_cast<GLsizei>(levels.size()),
+                     levels.front().srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width_, height_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     // OpenGL's row 0 is at v = 0, the bottom.

@@ -1,5 +1,4 @@
-// Base-colour textures: mip levels made here, in linear light, so that every driver and the reference filter
-// the same.
+// Textures: mip levels made here, in linear light, so that every driver and the reference filter the same.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +8,14 @@ namespace plisse::passes {
 
 struct TextureLevel {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;  // sRGB, straight alpha, rows from top to bottom
+  std::vector<std::uint8_t> rgba;  // straight alpha, rows from top to bottom
+  bool srgb = true;                // colours; false: a normal map, which is linear
 };
 
 // The image and its halves down to 1×1; 2×2 texels average in linear light, colours weighted by alpha.
-std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<std::uint8_t>& rgba);
+// Normals become shorter where they disagree, which flattens nothing: their slopes average.
+std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<std::uint8_t>& rgba,
+                                     bool srgb = true);
 
 class Texture {
  public:

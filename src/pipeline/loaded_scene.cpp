@@ -133,14 +133,18 @@ std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
       const bool textured = material.base_colour_texture >= 0 && part.has_uv;
       draw.two_sided = material.two_sided;
       draw.texture = textured ? material.base_colour_texture : -1;
+      draw.normal_texture = part.has_uv ? material.normal_texture : -1;
+      draw.normal_scale = material.normal_scale;
       const bool white = glm::vec3(material.base_colour) == glm::vec3(1);
-      if (textured || !white)
+      if (textured || !white || part.has_colours)
         draw.base_colour = material.base_colour;
       else
         draw.base_colour.a = material.base_colour.a;
       draw.has_alpha = material.alpha == io::Material::Alpha::blend;
       draw.alpha_cutoff = material.alpha == io::Material::Alpha::mask ? material.alpha_cutoff : 0.0F;
     }
+    draw.has_colours = part.has_colours;
+    if (part.has_colours && part.material < 0) draw.base_colour = glm::vec4(1);
     parts.push_back(draw);
   }
   return parts;
@@ -149,7 +153,8 @@ std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
 std::vector<std::vector<passes::TextureLevel>> LoadedScene::texture_levels() const {
   std::vector<std::vector<passes::TextureLevel>> all;
   for (const auto& texture : model.textures) {
-    all.push_back(passes::mip_levels(texture.image.width, texture.image.height, texture.image.rgba));
+    all.push_back(passes::mip_levels(texture.image.width, texture.image.height, texture.image.rgba,
+                                     texture.use == io::Texture::Use::colour));
   }
   return all;
 }
@@ -197,35 +202,46 @@ void LoadedScene::fit_camera(const std::vector<glm::dvec3>& samples) {
   camera.explicit_pose = true;
 }
 
+namespace {
+
+// By name, or else by index. Throws Error(bad_input) naming those there are.
+const io::Camera& model_camera(const io::Model& model, const std::string& choice) {
+  std::vector<std::string> names;
+  for (const io::Camera& camera : model.cameras) names.push_back(camera.name);
+  const auto named = std::find(names.begin(), names.end(), choice);
+  if (named != names.end()) return model.cameras[static_cast<std::size_t>(named - names.begin())];
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::to_string(i) == choice) return model.cameras[i];
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format(
+          "{}: no camera '{}'{}; it has {}; or give azimuth,elevation[,focal] or eye=x,y,z;target=x,y,z",
+          model.path.string(), choice, did_you_mean(choice, names),
+          names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace
+
 passes::View LoadedScene::view(int frame) const {
   const CameraSettings& camera = settings.camera;
   const glm::dvec3 up(0, 1, 0), centre = 0.5 * (bounds_.low + bounds_.high);
   const double radius = std::max(0.5 * glm::distance(bounds_.low, bounds_.high), 1e-9);
+  double half_height = 0;  // of a parallel projection
   double tan_x = half_film(settings).x, tan_y = half_film(settings).y;
   glm::dvec3 eye = camera.eye, forward = glm::normalize(camera.target - camera.eye), camera_up = up;
   if (!camera.name.empty()) {
-    std::vector<std::string> names;
-    int found = -1;
-    for (std::size_t i = 0; i < model.cameras.size(); ++i) {
-      names.push_back(model.cameras[i].name);
-      if (model.cameras[i].name == camera.name || std::to_string(i) == camera.name)
-        found = static_cast<int>(i);
-    }
-    if (found < 0) {
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format(
-              "{}: no camera '{}'{}; it has {}; or give azimuth,elevation[,focal] or eye=x,y,z;target=x,y,z",
-              model.path.string(), camera.name, did_you_mean(camera.name, names),
-              names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "))));
-    }
-    const io::Camera& chosen = model.cameras[static_cast<std::size_t>(found)];
+    const io::Camera& chosen = model_camera(model, camera.name);
     const glm::dmat4 place = animation.node_matrix(chosen.node, frame);
     eye = glm::dvec3(place[3]);
     forward = glm::normalize(-glm::dvec3(place[2]));
     camera_up = glm::normalize(glm::dvec3(place[1]));
     tan_y = std::tan(chosen.vertical_field_of_view / 2);
     tan_x = tan_y * settings.output.width / settings.output.height;
+    if (chosen.half_height > 0) {
+      half_height = chosen.half_height * glm::length(glm::dvec3(place[1])) / units.metres;
+      // Parallel rays come from far away; shading wants a point they come from, here right to a thousandth.
+      eye -= 1000 * radius * forward;
+    }
   }
   if (std::abs(glm::dot(forward, camera_up)) > 0.9999)
     camera_up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
@@ -240,8 +256,11 @@ passes::View LoadedScene::view(int frame) const {
   const double distance = glm::distance(view.eye, view.bounds_centre);
   const double far = distance + (settings.output.ground ? 12 : 1.5) * view.bounds_radius;
   const double near = std::max(distance - 1.5 * view.bounds_radius, 1e-3 * (distance + view.bounds_radius));
-  view.view_projection = glm::frustum(-tan_x * near, tan_x * near, -tan_y * near, tan_y * near, near, far) *
-                         glm::lookAt(view.eye, view.eye + forward, camera_up);
+  const double half_width = half_height * settings.output.width / settings.output.height;
+  const glm::dmat4 projection =
+      half_height > 0 ? glm::ortho(-half_width, half_width, -half_height, half_height, near, far)
+                      : glm::frustum(-tan_x * near, tan_x * near, -tan_y * near, tan_y * near, near, far);
+  view.view_projection = projection * glm::lookAt(view.eye, view.eye + forward, camera_up);
 
   // Lights stand relative to the camera, round the up axis.
   glm::dvec3 back(-forward.x, 0, -forward.z);
@@ -313,13 +332,19 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
         .add(vertex.uv.y)
         .add(vertex.normal.x)
         .add(vertex.normal.y)
-        .add(vertex.normal.z);
+        .add(vertex.normal.z)
+        .add(vertex.normal_uv.x)
+        .add(vertex.normal_uv.y);
+    for (int i = 0; i < 4; ++i) hash.add(vertex.colour[i]);
   }
   add_items(hash, surface().triangles);
   for (const auto& part : draw_parts()) {
     hash.add(part.first_triangle)
         .add(part.triangle_count)
         .add(part.texture)
+        .add(part.normal_texture)
+        .add(part.normal_scale)
+        .add(part.has_colours)
         .add(part.has_alpha)
         .add(part.alpha_cutoff)
         .add(part.two_sided);

@@ -161,7 +161,8 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
               &level.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
                                static_cast<std::size_t>(x))];
           Eigen::Vector4f value;
-          for (int c = 0; c < 3; ++c) value[c] = static_cast<float>(srgb_to_linear(texel[c] / 255.0));
+          for (int c = 0; c < 3; ++c)
+            value[c] = static_cast<float>(level.srgb ? srgb_to_linear(texel[c] / 255.0) : texel[c] / 255.0);
           value[3] = static_cast<float>(texel[3] / 255.0);
           // The reference's row 0 is at v = 0, the bottom of the picture.
           converted
@@ -188,6 +189,8 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
     material.base_colour = eigen(glm::dvec3(part.base_colour));
     material.base_alpha = static_cast<double>(part.base_colour.a);
     material.texture = part.texture;
+    material.normal_texture = part.normal_texture;
+    material.normal_scale = static_cast<double>(part.normal_scale);
     material.alpha_cutoff = part.alpha_cutoff > 0 ? static_cast<double>(part.alpha_cutoff) : -1;
     material.blended = part.has_alpha;
     material.two_sided = part.two_sided;
@@ -208,6 +211,10 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
             snapshot.phases[v] +
             2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
         triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
+        triangle.normal_uv.col(c) = Eigen::Vector2f(vertex.normal_uv.x, vertex.normal_uv.y).cast<double>();
+        triangle.colours.col(c) =
+            Eigen::Vector4f(vertex.colour.r, vertex.colour.g, vertex.colour.b, vertex.colour.a)
+                .cast<double>();
         // The rest normal's components ride in the posed frame.
         const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
         triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +

@@ -39,6 +39,13 @@ double footprint_level(const Texture& texture, const Eigen::Matrix2d& uv_per_pix
   return side > 0 ? std::log2(side) : 0;
 }
 
+// Where a coordinate with gradient g grows along a surface of unit normal n; 0 where it does not.
+Vector3d growth(const Vector3d& g, const Vector3d& n) {
+  const Vector3d along = g - g.dot(n) * n;
+  const double length = along.norm();
+  return length > 1e-15 ? Vector3d(along / length) : Vector3d::Zero();
+}
+
 // The sky that the bottom of a groove sees: a = 0 where there is no wave.
 double occlusion_of(double cavity, double amplitude, double height, double longest_wavenumber) {
   if (!(amplitude > 0)) return 1;
@@ -126,25 +133,35 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
   const HeightSample wave =
       height_and_gradient(waves, fragment.barycentric, scene.profile, shading.blend, shading.gradient, fade);
   const double height = side * wave.height;
-  const Vector3d N = side * (normal - wave.gradient).normalized();
   const double lost_slope =
       wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
   const double amplitude = wave.weights.dot(waves.heights.cwiseProduct(fade));
   const double occlusion = occlusion_of(shading.cavity, amplitude, height, longest_wavenumber);
 
-  // Texture, shifted by the parallax.
+  // Textures, shifted by the parallax.
+  const auto corner_gradients = barycentric_gradients(waves.corners);
+  const Vector3d shift = limited_parallax_shift(v, n_s, height, shading.parallax, longest_wavenumber);
+  const auto texel_of = [&](int id, const Eigen::Matrix<double, 2, 3>& uvs) {
+    const Texture& texture = scene.textures[static_cast<std::size_t>(id)];
+    const Vector2d uv = uvs * (fragment.barycentric + corner_gradients.transpose() * shift);
+    return sample(texture, uv, footprint_level(texture, uvs * fragment.per_pixel));
+  };
   Shaded result;
-  Vector3d albedo = material.base_colour;
-  result.alpha = material.base_alpha;
-  if (material.texture >= 0) {
-    const Texture& texture = scene.textures[static_cast<std::size_t>(material.texture)];
-    const Vector3d shift = limited_parallax_shift(v, n_s, height, shading.parallax, longest_wavenumber);
-    const Vector2d uv =
-        triangle.uv * (fragment.barycentric + barycentric_gradients(waves.corners).transpose() * shift);
-    const Vector4d texel = sample(texture, uv, footprint_level(texture, triangle.uv * fragment.per_pixel));
-    albedo = albedo.cwiseProduct(texel.head<3>());
-    result.alpha *= texel.w();
+  Vector4d colour = triangle.colours * fragment.barycentric;
+  colour.head<3>() = colour.head<3>().cwiseProduct(material.base_colour);
+  colour.w() *= material.base_alpha;
+  if (material.texture >= 0) colour = colour.cwiseProduct(texel_of(material.texture, triangle.uv));
+  const Vector3d albedo = colour.head<3>();
+  result.alpha = colour.w();
+  Vector3d bent = normal - wave.gradient;
+  if (material.normal_texture >= 0) {
+    const Vector3d m = 2 * texel_of(material.normal_texture, triangle.normal_uv).head<3>().array() - 1;
+    const Eigen::Matrix<double, 3, 2> uv_gradients = corner_gradients * triangle.normal_uv.transpose();
+    bent = std::max(m.z(), 0.05) * bent +
+           material.normal_scale *
+               (m.x() * growth(uv_gradients.col(0), normal) + m.y() * growth(uv_gradients.col(1), normal));
   }
+  const Vector3d N = side * bent.normalized();
   const bool cut = material.alpha_cutoff >= 0 && result.alpha < material.alpha_cutoff;
   result.visible = !cut && (material.two_sided || side > 0);
 
@@ -166,8 +183,8 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
     diffuse += light.colour * d * share;
     specular += light.colour * distribution * fresnel / (4 * std::max(LH * LH, 0.1)) * d * share;
   }
-  const Vector3d colour = (albedo.array() + fuzz).matrix().cwiseProduct(diffuse) + specular;
-  result.colour = colour.unaryExpr(&shoulder);
+  const Vector3d light = (albedo.array() + fuzz).matrix().cwiseProduct(diffuse) + specular;
+  result.colour = light.unaryExpr(&shoulder);
   return result;
 }
 

@@ -17,6 +17,8 @@ struct Triangle {
   WaveTriangle waves;
   Eigen::Matrix3d normals;  // posed normals of the corners, columns, unit
   Eigen::Matrix<double, 2, 3> uv{Eigen::Matrix<double, 2, 3>::Zero()};
+  Eigen::Matrix<double, 2, 3> normal_uv{Eigen::Matrix<double, 2, 3>::Zero()};  // of the normal map
+  Eigen::Matrix<double, 4, 3> colours{Eigen::Matrix<double, 4, 3>::Ones()};    // of the corners, linear
   std::array<std::uint32_t, 3> welded{};  // equal ids = the same vertex of the surface
   int material = 0;
 };
@@ -38,6 +40,8 @@ struct Material {
   Eigen::Vector3d base_colour{1, 1, 1};
   double base_alpha = 1;
   int texture = -1;          // −1 none
+  int normal_texture = -1;   // likewise; its channels, 0…1, are the normal's components, −1…1
+  double normal_scale = 1;   // of the normal map's x and y
   double alpha_cutoff = -1;  // pixels with less alpha are cut; negative: none
   bool blended = false;      // over what is behind it, by its alpha; else opaque
   bool two_sided = true;     // false: triangles seen from behind are not drawn

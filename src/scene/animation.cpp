@@ -77,9 +77,9 @@ Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames
   return timeline;
 }
 
-// Render vertices that share everything are one: (welded, uv, file normal), by bits.
+// Render vertices that share everything are one: (welded, uvs, file normal, colour), by bits.
 struct RenderKey {
-  std::array<std::uint64_t, 5> bits{};
+  std::array<std::uint64_t, 8> bits{};
   bool operator==(const RenderKey&) const = default;
 };
 struct RenderKeyHash {
@@ -114,15 +114,18 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
   for (const std::uint32_t v : from.triangles) {
     const glm::dvec3 n = from.normals[v];
     const glm::vec2 uv = from.uvs[v];
-    const RenderKey key{
-        {weld.welded[v],
-         std::uint64_t{std::bit_cast<std::uint32_t>(uv.x)} << 32 | std::bit_cast<std::uint32_t>(uv.y),
-         std::bit_cast<std::uint64_t>(n.x), std::bit_cast<std::uint64_t>(n.y),
-         std::bit_cast<std::uint64_t>(n.z)}};
+    const glm::vec2 normal_uv = from.normal_uvs[v];
+    const glm::vec4 colour = from.colours[v];
+    const auto two = [](float a, float b) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+    };
+    const RenderKey key{{weld.welded[v], two(uv.x, uv.y), std::bit_cast<std::uint64_t>(n.x),
+                         std::bit_cast<std::uint64_t>(n.y), std::bit_cast<std::uint64_t>(n.z),
+                         two(normal_uv.x, normal_uv.y), two(colour.r, colour.g), two(colour.b, colour.a)}};
     const auto [entry, fresh] =
         known.try_emplace(key, static_cast<std::uint32_t>(surface.render_vertices.size()));
     if (fresh) {
-      surface.render_vertices.push_back({weld.welded[v], uv, {0, 1, 0}});
+      surface.render_vertices.push_back({weld.welded[v], uv, {0, 1, 0}, normal_uv, colour});
       normals.push_back(n);
     }
     surface.triangles.push_back(entry->second);

@@ -228,6 +228,8 @@ class Gatherer {
       const double length = glm::length(normal);
       result_.normals.push_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3{0});
       result_.uvs.push_back(mesh.uvs.empty() ? glm::vec2{0} : mesh.uvs[v]);
+      result_.normal_uvs.push_back(mesh.normal_uvs.empty() ? result_.uvs.back() : mesh.normal_uvs[v]);
+      result_.colours.push_back(mesh.colours.empty() ? glm::vec4{1} : mesh.colours[v]);
       result_.cache_index.push_back(cache_offsets_[id] + static_cast<std::uint32_t>(v));
       vertices.influences.push_back(influences_of(mesh, v, cached));
     }
@@ -257,6 +259,7 @@ class Gatherer {
     part.first_triangle = static_cast<std::uint32_t>(result_.triangles.size() / 3);
     part.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
     part.has_uv = !mesh.uvs.empty();
+    part.has_colours = !mesh.colours.empty();
     result_.parts.push_back(std::move(part));
     const bool mirrored = glm::determinant(glm::dmat3(placed_.matrix)) < 0;
     for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)

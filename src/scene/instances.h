@@ -30,7 +30,8 @@ struct MorphSource {
 struct Instances {
   WeldInput vertices;               // in the space of Surface::bind
   std::vector<glm::dvec3> normals;  // unit, in the space of bind; 0 where the file has none
-  std::vector<glm::vec2> uvs;
+  std::vector<glm::vec2> uvs, normal_uvs;
+  std::vector<glm::vec4> colours;
   std::vector<std::uint32_t> cache_index;  // vertex over all meshes of the model, as VertexCache counts
   std::vector<std::uint32_t> triangles;    // wound so that area normals point where the file's do
   std::vector<Part> parts;

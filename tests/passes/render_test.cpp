@@ -580,6 +580,16 @@ TEST_F(Render, MipLevelsAverageLight) {
   EXPECT_EQ(static_cast<int>(odd.back().rgba[0]), 100);
 }
 
+TEST_F(Render, MipLevelsOfNormalsAreLinear) {
+  // Two slopes that cancel: 0 and 255 average to 127.5 in each channel, not to the 188 of light.
+  const auto levels = mip_levels(2, 1, {255, 0, 200, 255, 0, 255, 200, 255}, false);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_FALSE(levels[1].srgb);
+  EXPECT_NEAR(static_cast<int>(levels[1].rgba[0]), 127.5, 0.51);
+  EXPECT_NEAR(static_cast<int>(levels[1].rgba[1]), 127.5, 0.51);
+  EXPECT_EQ(static_cast<int>(levels[1].rgba[2]), 200);
+}
+
 TEST_F(Render, MasksCut) {
   Stage stage(test::sheet({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}));
   stage.textures = {two_halves(100)};

@@ -349,6 +349,74 @@ TEST(ReferenceShading, NormalOfAWaveIsItsSlopes) {
   EXPECT_NEAR(one.shaded().colour.x(), 0.5 * (0.6 + 0.4 * slope / std::hypot(1, slope)), 1e-13);
 }
 
+// A normal map of one texel that says (x, y, z).
+void map_normal(OneFragment& one, const Vector3d& m, const Eigen::Matrix2d& uv_of_place) {
+  one.triangle.normal_uv = uv_of_place * one.triangle.waves.corners.topRows<2>();
+  TextureLevel level{1, 1, {Eigen::Vector4f::Ones()}};
+  level.texels[0].head<3>() = (0.5 * m.array() + 0.5).matrix().cast<float>();
+  one.scene.textures = {{{level}}};
+  one.scene.materials[0].normal_texture = 0;
+}
+// The component of N along an axis, seen through the hemisphere's light.
+double component(OneFragment one, const Vector3d& axis) {
+  one.scene.lighting.up = axis;
+  return (one.shaded().colour.x() / 0.5 - 0.6) / 0.4;
+}
+
+TEST(ReferenceShading, NormalMapsTiltAlongTheirCoordinates) {
+  // Texels are floats, 6e-8 of a half.
+  constexpr double single = 1e-6;
+  OneFragment one;
+  one.scene.camera.eye = {0, 0, 5};
+  const Vector3d m = Vector3d(0.3, -0.2, 0.8).normalized();
+  // u along x, v along y, whatever their scale: N is m itself.
+  map_normal(one, m, Eigen::Vector2d(7, 0.01).asDiagonal());
+  EXPECT_NEAR(component(one, Vector3d::UnitX()), m.x(), single);
+  EXPECT_NEAR(component(one, Vector3d::UnitY()), m.y(), single);
+  EXPECT_NEAR(component(one, Vector3d::UnitZ()), m.z(), single);
+  // A map turned a quarter and mirrored: u grows along −y, v along x.
+  map_normal(one, m, (Eigen::Matrix2d() << 0, -1, 1, 0).finished());
+  EXPECT_NEAR(component(one, Vector3d::UnitX()), m.y(), single);
+  EXPECT_NEAR(component(one, Vector3d::UnitY()), -m.x(), single);
+  // The scale takes x and y.
+  map_normal(one, m, Eigen::Matrix2d::Identity());
+  one.scene.materials[0].normal_scale = 0.5;
+  const Vector3d half = Vector3d(0.5 * m.x(), 0.5 * m.y(), m.z()).normalized();
+  EXPECT_NEAR(component(one, Vector3d::UnitX()), half.x(), single);
+  // From behind everything turns round with the side.
+  one.scene.camera.eye = {0, 0, -5};
+  EXPECT_NEAR(component(one, Vector3d::UnitZ()), -half.z(), single);
+  // Coordinates that do not change say nothing of a direction: only the surface's own normal is left.
+  map_normal(one, m, Eigen::Matrix2d::Zero());
+  EXPECT_NEAR(component(one, Vector3d::UnitZ()), -1, single);
+}
+
+TEST(ReferenceShading, SlopesOfMapAndWaveAdd) {
+  // A wave of slope s leans N to +x as in NormalOfAWaveIsItsSlopes; a map of slope −a/c along x, −b/c along
+  // y.
+  OneFragment one = wavy(0.5 * pi);
+  one.scene.shading.parallax = 0;
+  const Vector3d m = Vector3d(-0.4, 0.2, 0.9).normalized();
+  map_normal(one, m, Eigen::Matrix2d::Identity());
+  const Vector3d expected = Vector3d(2 * pi * 0.1 * 1.5 + m.x() / m.z(), m.y() / m.z(), 1).normalized();
+  EXPECT_NEAR(component(one, Vector3d::UnitX()), expected.x(), 1e-6);
+  EXPECT_NEAR(component(one, Vector3d::UnitY()), expected.y(), 1e-6);
+}
+
+TEST(ReferenceShading, VertexColoursMultiply) {
+  OneFragment one;
+  one.scene.materials[0].base_colour = {0.5, 1, 0.8};
+  one.scene.materials[0].base_alpha = 0.5;
+  one.triangle.colours << 0.3, 0, 0, 0, 0.6, 0, 0, 0, 0.9, 1, 1, 0.1;
+  one.fragment.barycentric = {0.5, 0.25, 0.25};
+  one.scene.lighting.up = -Vector3d::UnitZ();
+  // The hemisphere's light is 0.5 (0.6 − 0.4) = 0.1 from below.
+  EXPECT_NEAR(one.shaded().colour.x(), 0.1 * 0.5 * 0.15, 1e-14);
+  EXPECT_NEAR(one.shaded().colour.y(), 0.1 * 0.15, 1e-14);
+  EXPECT_NEAR(one.shaded().colour.z(), 0.1 * 0.8 * 0.225, 1e-14);
+  EXPECT_NEAR(one.shaded().alpha, 0.5 * 0.775, 1e-14);
+}
+
 TEST(ReferenceShading, CavityIsTheGroovesOwnAtItsBottom) {
   // cavity 1: the bottom sees cos ψ of the sky, tan ψ = 2πh|κ|; the crest sees all of it.
   OneFragment bottom = wavy(pi), crest = wavy(0);
