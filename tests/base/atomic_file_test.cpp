@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "support/files.h"
 
 namespace plisse {
 namespace {
@@ -19,14 +20,6 @@ namespace fs = std::filesystem;
 
 class WholeFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("plisse_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::string text_of(const fs::path& path) {
     const auto bytes = read_whole_file(path);
     return {bytes.begin(), bytes.end()};
@@ -45,7 +38,8 @@ class WholeFile : public testing::Test {
     }
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(WholeFile, MakesFoldersAndReplaces) {

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "support/files.h"
 
 namespace plisse {
 namespace {
@@ -49,7 +50,7 @@ TEST(Hash, CopiesGoOnAlone) {
 }
 
 TEST(Hash, FilesCountByContent) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "plisse_hash";
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "a", "same");
   write_whole_file(folder / "b", "same");
   write_whole_file(folder / "c", "else");
@@ -62,7 +63,6 @@ TEST(Hash, FilesCountByContent) {
     EXPECT_EQ(error.code, ExitCode::bad_input);
     EXPECT_NE(std::string(error.what()).find("missing"), std::string::npos);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "benchmark/film.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "pipeline.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/stepper.h"
+#include "support/files.h"
 
 namespace plisse::benchmark {
 namespace {
@@ -26,29 +26,10 @@ int frame_count(const pipeline::LoadedScene& scene, const Effort& effort) {
   return effort.frames > 0 ? std::min(effort.frames, all) : all;
 }
 
-// A folder that goes when its owner goes.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() / fmt::format("plisse_benchmark_{}", getpid())) {
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 SceneSettings film_settings(const std::string& scene, const Effort& effort, int samples_a_pixel) {
-  SceneSettings settings = load_scene(std::string(PLISSE_SOURCE_DIR "/assets/") + scene + ".toml");
+  SceneSettings settings = load_scene(test::asset(scene + ".toml").string());
   settings.output.width = effort.width;
   settings.output.height = effort.height;
   settings.output.samples = samples_a_pixel;
@@ -79,7 +60,7 @@ Sample film_without_files(const SceneSettings& settings, const Effort& effort, b
 }
 
 FilmWithFiles film_with_files(SceneSettings settings, const Effort& effort) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   settings.output.path = folder.path().string();
   if (effort.frames > 0) settings.model.frames = fmt::format("1-{}", effort.frames);
   RenderRequest request;

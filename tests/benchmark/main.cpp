@@ -19,6 +19,7 @@
 #include "benchmark/report.h"
 #include "benchmark/sections.h"
 #include "gpu/context.h"
+#include "support/files.h"
 
 namespace plisse::benchmark {
 namespace {
@@ -54,7 +55,7 @@ std::string processor() {
 }
 
 std::string commit() {
-  const std::string git = "git -C '" PLISSE_SOURCE_DIR "' ";
+  const std::string git = "git -C '" + test::source_file(".").string() + "' ";
   const std::string id = output_of(git + "rev-parse --short HEAD 2>/dev/null");
   if (id.empty()) return "unknown";
   const bool changed =

@@ -8,6 +8,7 @@
 
 #include "config/scene_file.h"
 #include "pipeline/loaded_scene.h"
+#include "support/files.h"
 
 namespace plisse::benchmark {
 namespace {
@@ -35,7 +36,7 @@ std::vector<glm::dmat4> bent(double squeeze, double angle, const passes::ModelUn
 }  // namespace
 
 Subject scene_subject(const std::string& name, const Effort& effort) {
-  SceneSettings settings = load_scene(std::string(PLISSE_SOURCE_DIR "/assets/") + name + ".toml");
+  SceneSettings settings = load_scene(test::asset(name + ".toml").string());
   settings.output.width = effort.width;
   settings.output.height = effort.height;
   pipeline::LoadedScene scene(settings);

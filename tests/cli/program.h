@@ -27,7 +27,7 @@ class Program : public testing::Test {
   // What the program writes goes to files: `out`, or one of the folder's own, and .err.
   pid_t start(const std::vector<std::string>& arguments, const std::string& out = "",
               bool closed_error = false) {
-    const std::string program = std::string(PLISSE_BINARY_DIR) + "/plisse";
+    const std::string program = program_path();
     out_ = out.empty() ? path(".out") : out;
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

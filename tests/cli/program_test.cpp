@@ -192,7 +192,7 @@ TEST_F(Program, InitDoesNotReplaceAScene) {
 TEST_F(Program, InitMakesTheReference) {
   const Outcome outcome = run({"init", "--keys-markdown"});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.out, test::read_text(std::filesystem::path(PLISSE_SOURCE_DIR) / "docs/scene.md"));
+  EXPECT_EQ(outcome.out, test::read_text(test::source_file("docs/scene.md")));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "support/errors.h"
 
 namespace plisse {
 namespace {
@@ -16,13 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::string error_of(const std::string& selection, int count) {
-  try {
-    select_frames(selection, count);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "none";
+  return test::error_of([&] { select_frames(selection, count); });
 }
 
 TEST(SelectFrames, TakesEachFormOfTheContract) {

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "config/keys.h"
 #include "config/scene_file.h"
+#include "support/errors.h"
 
 namespace plisse {
 namespace {
@@ -23,13 +24,7 @@ SceneSettings with(const GivenOptions& options) {
 }
 
 std::string error_of(const GivenOptions& options) {
-  try {
-    with(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "none";
+  return test::error_of([&] { with(options); });
 }
 
 TEST(Options, EveryOptionOfTheContractIsThere) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace plisse {
@@ -19,13 +20,7 @@ class PaintFile : public ::testing::Test {
   PaintFile() { test::write_text(folder_ / "scene.toml", ""); }
   PaintSettings parse(const std::string& text) const { return parse_paint(text, folder_ / "paint.toml"); }
   std::string complaint(const std::string& text) const {
-    try {
-      parse(text);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::bad_input);
-      return error.what();
-    }
-    return "no error";
+    return test::error_of([&] { parse(text); });
   }
   std::string stroke_complaint(const std::string& lines) const { return complaint("[[stroke]]\n" + lines); }
   test::TemporaryFolder folder_;
@@ -98,7 +93,7 @@ TEST_F(PaintFile, TellsEachMistakeWithItsLine) {
 }
 
 TEST_F(PaintFile, ReferenceIsWhatTheParserSays) {
-  const std::string file = test::read_text(std::filesystem::path(PLISSE_SOURCE_DIR) / "docs/paint.md");
+  const std::string file = test::read_text(test::source_file("docs/paint.md"));
   EXPECT_THAT(file, HasSubstr(paint_reference_markdown())) << "docs/paint.md has other tables:\n"
                                                            << paint_reference_markdown();
 }

@@ -470,12 +470,12 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
 }
 
 TEST_F(SceneFile, ReferenceIsWhatTheTableSays) {
-  const std::string file = test::read_text(std::filesystem::path(PLISSE_SOURCE_DIR) / "docs/scene.md");
+  const std::string file = test::read_text(test::source_file("docs/scene.md"));
   EXPECT_EQ(file, scene_reference_markdown()) << "make it anew: plisse init --keys-markdown > docs/scene.md";
 }
 
 TEST_F(SceneFile, ReferenceHasEveryKey) {
-  const std::string file = test::read_text(std::filesystem::path(PLISSE_SOURCE_DIR) / "docs/scene.md");
+  const std::string file = test::read_text(test::source_file("docs/scene.md"));
   for (const config::Key& key : config::keys()) {
     const auto section = file.find("## [" + key.table + "]");
     ASSERT_NE(section, std::string::npos) << key.table;

@@ -119,7 +119,7 @@ TEST(ShaderSource, NamesTheFileThatIsMissing) {
 
 TEST(ShaderSource, EmbedsTheFolderAsItIs) {
   EXPECT_GE(embedded_shaders().size(), 10U);
-  const std::filesystem::path folder = std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders";
+  const std::filesystem::path folder = test::source_file("shaders");
   for (const auto& shader : embedded_shaders())
     EXPECT_EQ(shader.text, test::read_text(folder / shader.name)) << shader.name;
 }

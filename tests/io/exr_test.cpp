@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "support/files.h"
 
 namespace plisse::io {
 namespace {
@@ -20,9 +21,8 @@ namespace fs = std::filesystem;
 
 class Exr : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::path(testing::TempDir()) / "plisse_exr";
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Exr, ComesBackBitForBit) {

@@ -9,6 +9,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "io/png.h"
+#include "support/files.h"
 
 namespace plisse::io {
 namespace {
@@ -84,7 +85,8 @@ TEST(ReadImage, RefusesHugeHeadersBeforeDecoding) {
 }
 
 TEST(ReadImage, FilesAreNamed) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "plisse_image.pgm";
+  const test::TemporaryFolder folder;
+  const auto path = folder / "image.pgm";
   write_whole_file(path, "P5 1 1 255\nA");
   EXPECT_EQ(load_image(path).width, 1);
   std::filesystem::remove(path);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "io/import.h"
+#include "support/files.h"
 #include "support/gltf_file.h"
 
 namespace plisse::io {
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 class Gltf : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("plisse_gltf_{}", ::getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // One triangle with uvs and a morph target under a node that moves.
   Model import(const std::string& material, const std::string& interpolation) const {
     test::GltfBuffer buffer;
@@ -49,7 +43,8 @@ class Gltf : public testing::Test {
     return import_model(folder_ / "file.gltf");
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Gltf, GeometryAndMorphTargets) {

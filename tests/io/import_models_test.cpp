@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
@@ -18,6 +17,7 @@
 #include "base/error.h"
 #include "io/import.h"
 #include "scene/animation.h"
+#include "support/files.h"
 
 namespace plisse {
 namespace {
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path data() {
-  return fs::path(PLISSE_SOURCE_DIR) / ".." / "shared" / "data";
+  return test::shared_data("");
 }
 
 class Models : public testing::Test {
@@ -194,7 +194,8 @@ TEST_F(Models, ColladaUnitsAndUpAxis) {
   };
   replace(R"(<unit name="meter" meter="1"/>)", R"(<unit meter="0.01" name="centimeter"/>)");
   replace("Z_UP", "Y_UP");
-  const fs::path path = fs::temp_directory_path() / fmt::format("plisse_unit_{}.dae", ::getpid());
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "unit.dae";
   std::ofstream(path) << text;
   const auto rest = [&](const fs::path& file, const io::ImportOptions& options) {
     const io::Model model = io::import_model(file, options);
@@ -203,7 +204,6 @@ TEST_F(Models, ColladaUnitsAndUpAxis) {
   const std::vector<glm::dvec3> metres = rest(data() / "models" / "box_nested_animation.dae", {{}, "y"});
   const std::vector<glm::dvec3> centimetres = rest(path, {});
   const std::vector<glm::dvec3> inches = rest(path, {0.0254, ""});
-  fs::remove(path);
   ASSERT_EQ(metres.size(), centimetres.size());
   for (std::size_t v = 0; v < metres.size(); ++v) {
     // assimp holds the unit in single precision.

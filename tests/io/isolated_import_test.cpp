@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/importer_process.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace plisse::io {
@@ -38,13 +39,7 @@ class IsolatedImport : public testing::Test {
     return folder_ / name;
   }
   static std::string error_of(const std::filesystem::path& path, const ImportOptions& options = {}) {
-    try {
-      import_model(path, options);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::bad_input);
-      return error.what();
-    }
-    return "no error";
+    return test::error_of([&] { import_model(path, options); });
   }
   test::TemporaryFolder folder_;
 };

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "base/error.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace plisse::io {
@@ -22,13 +23,7 @@ Ply parsed(const std::string& text) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { parsed(text); });
 }
 
 const std::string header =

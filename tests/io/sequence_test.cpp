@@ -5,13 +5,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
 #include "io/import.h"
+#include "support/errors.h"
+#include "support/files.h"
 
 namespace plisse::io {
 namespace {
@@ -23,38 +24,20 @@ using testing::HasSubstr;
 // A folder of its own for every test, gone afterwards.
 class ObjTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              fmt::format("plisse_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(),
-                          ::getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
   }
 
-  template <typename Action>
-  static std::string error_of(const Action& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::bad_input);
-      return error.what();
-    }
-    return "no error";
-  }
-
   std::string import_error(const fs::path& path) const {
-    return error_of([&] {
+    return test::error_of([&] {
       const Model model = import_model(path);
       for (std::size_t f = 0; f < model.cache.size(); ++f) model.cache.frame(f);
     });
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 std::string square(double height) {
@@ -98,8 +81,8 @@ TEST_F(ObjTest, UnitsAndUpAxis) {
   EXPECT_EQ(import_model(path).meshes[0].positions[2], glm::dvec3(0, 2, 3));
   EXPECT_EQ(import_model(path, {0.5, "z"}).meshes[0].positions[2], glm::dvec3(0, 1.5, -1));
   EXPECT_EQ(import_model(path, {{}, "x"}).meshes[0].positions[2], glm::dvec3(-2, 0, 3));
-  EXPECT_THAT(error_of([&] { import_model(path, {{}, "w"}); }), HasSubstr("expected x, y or z"));
-  EXPECT_THAT(error_of([&] { import_model(path, {-1.0, ""}); }), HasSubstr("positive"));
+  EXPECT_THAT(test::error_of([&] { import_model(path, {{}, "w"}); }), HasSubstr("expected x, y or z"));
+  EXPECT_THAT(test::error_of([&] { import_model(path, {-1.0, ""}); }), HasSubstr("positive"));
 }
 
 TEST_F(ObjTest, SaysWhereAFileIsWrong) {

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "scene/animation.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace plisse::io {
@@ -73,16 +74,6 @@ class Ply : public testing::Test {
   static PlyFile parse(const std::string& text) {
     return parse_ply({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, "f.ply");
   }
-  template <typename Action>
-  static std::string error_of(const Action& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::bad_input);
-      return error.what();
-    }
-    return "no error";
-  }
   test::TemporaryFolder folder_;
 };
 
@@ -103,7 +94,7 @@ TEST_F(Ply, EveryCutIsNoticed) {
   // The last element is cut as well: nothing of a file may be missing.
   for (const std::string& text : {binary_square(false), binary_square(true)})
     for (std::size_t size = 0; size < text.size(); ++size)
-      EXPECT_THAT(error_of([&] { parse(text.substr(0, size)); }), HasSubstr("f.ply: ")) << size;
+      EXPECT_THAT(test::error_of([&] { parse(text.substr(0, size)); }), HasSubstr("f.ply: ")) << size;
 }
 
 TEST_F(Ply, SaysWhatIsWrong) {
@@ -111,7 +102,7 @@ TEST_F(Ply, SaysWhatIsWrong) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return error_of([&] { parse(text); });
+    return test::error_of([&] { parse(text); });
   };
   EXPECT_THAT(with("vertex 4", "vertex 4000000000"), HasSubstr("too short"));
   EXPECT_THAT(with("vertex 4", "vertex -4"), HasSubstr("'-4' is no count"));
@@ -125,8 +116,9 @@ TEST_F(Ply, SaysWhatIsWrong) {
   EXPECT_THAT(with("list uchar uint", "list float uint"), HasSubstr("floating point"));
   EXPECT_THAT(with("float x", "float X"), HasSubstr("x, y and z"));
   EXPECT_THAT(with("face 1", "faces 1"), HasSubstr("'face'"));
-  EXPECT_THAT(error_of([&] { parse("ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"); }),
-              HasSubstr("without properties"));
+  EXPECT_THAT(
+      test::error_of([&] { parse("ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"); }),
+      HasSubstr("without properties"));
 }
 
 TEST_F(Ply, SequencesKeepTheirMesh) {
@@ -141,7 +133,7 @@ TEST_F(Ply, SequencesKeepTheirMesh) {
   std::string other = ascii_square();
   other.replace(other.find("4 0 1 2 3"), 9, "4 1 2 3 0");
   write("c_02.ply", other);
-  EXPECT_THAT(error_of([&] { Animation(import_model(folder_.path()), {}); }),
+  EXPECT_THAT(test::error_of([&] { Animation(import_model(folder_.path()), {}); }),
               AllOf(HasSubstr("c_02.ply"), HasSubstr("other vertices")));
 }
 
@@ -193,7 +185,7 @@ class PointCaches : public Ply {
   std::string error_with(const std::string& name, const std::string& bytes) const {
     ImportOptions options;
     options.cache = write(name, bytes);
-    return error_of([&] { import_model(obj(), options); });
+    return test::error_of([&] { import_model(obj(), options); });
   }
 };
 
@@ -244,7 +236,7 @@ TEST_F(PointCaches, GoWithTheNodeWhereTheFormatHasNodes) {
       write("mesh.x",
             "xof 0303txt 0032\nFrame Root {\n Mesh Sheet {\n  4;\n  0.0;0.0;0.0;,\n  2.0;0.0;0.0;,\n"
             "  2.0;1.0;0.5;,\n  0.0;1.0;0.5;;\n  1;\n  4;0;1;2;3;;\n }\n}\n");
-  EXPECT_THAT(error_of([&] { import_model(x, options); }), HasSubstr("OBJ or PLY"));
+  EXPECT_THAT(test::error_of([&] { import_model(x, options); }), HasSubstr("OBJ or PLY"));
 }
 
 TEST_F(PointCaches, SayWhatIsWrong) {

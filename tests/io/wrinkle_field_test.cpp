@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace plisse::io {
@@ -30,13 +31,7 @@ class FieldFiles : public ::testing::Test {
   }
   WrinkleField read() const { return read_wrinkle_field(folder_ / "q_amplitude_s.txt", folder_ / "q.obj"); }
   std::string complaint() const {
-    try {
-      read();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::bad_input);
-      return error.what();
-    }
-    return "no error";
+    return test::error_of([&] { read(); });
   }
   test::TemporaryFolder folder_;
 };

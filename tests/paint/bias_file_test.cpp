@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/image.h"
 #include "io/png.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/sheets.h"
 
@@ -54,16 +55,6 @@ std::vector<glm::dvec3> random_bias(const Sheet& sheet, unsigned seed) {
     bias.push_back(length(random) * (std::cos(a) * t + std::sin(a) * glm::cross(n, t)));
   }
   return bias;
-}
-
-std::string complaint(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "no error";
 }
 
 // The tolerances: |p| within 1/255, the direction within 1°; where |p| rounds to nothing there is no
@@ -128,32 +119,34 @@ TEST(BiasFile, RefusesWhatDoesNotFit) {
   auto bias = random_bias(sheet, 5);
   write_bias_ply(folder / "bias.ply", sheet.surface, bias);
   const auto ply = folder / "bias.ply";
-  EXPECT_THAT(complaint([&] { read_bias(ply, other.surface, other.rest); }),
+  EXPECT_THAT(test::error_of([&] { read_bias(ply, other.surface, other.rest); }),
               HasSubstr("has 289 vertices, the model has 16"));
   Sheet moved = sheet;
   moved.surface.rest[7].x += 0.01;
-  EXPECT_THAT(complaint([&] { read_bias(ply, moved.surface, moved.rest); }), HasSubstr("vertex 7 is 0.01 m"));
+  EXPECT_THAT(test::error_of([&] { read_bias(ply, moved.surface, moved.rest); }),
+              HasSubstr("vertex 7 is 0.01 m"));
   bias[9] = {0, 1.5, 0};
   write_bias_ply(ply, sheet.surface, bias);
-  EXPECT_THAT(complaint([&] { read_bias(ply, sheet.surface, sheet.rest); }),
+  EXPECT_THAT(test::error_of([&] { read_bias(ply, sheet.surface, sheet.rest); }),
               HasSubstr("vertex 9: bias has a length of 1.5"));
   test::write_text(folder / "points.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n");
-  EXPECT_THAT(complaint([&] { read_bias(folder / "points.ply", sheet.surface, sheet.rest); }),
+  EXPECT_THAT(test::error_of([&] { read_bias(folder / "points.ply", sheet.surface, sheet.rest); }),
               HasSubstr("has 0 vertices"));
 
   const io::Image wide{4, 2, std::vector<std::uint8_t>(32, 128)},
       square{4, 4, std::vector<std::uint8_t>(64, 128)};
-  EXPECT_THAT(complaint([&] { decode_bias(sheet.surface, sheet.rest, wide, "a.png"); }),
+  EXPECT_THAT(test::error_of([&] { decode_bias(sheet.surface, sheet.rest, wide, "a.png"); }),
               HasSubstr("a.png: is 4x2 pixels"));
   Sheet bare = sheet;
   bare.surface.parts[0].has_uv = false;
-  EXPECT_THAT(complaint([&] { decode_bias(bare.surface, bare.rest, square, "a.png"); }), HasSubstr("no uv"));
-  EXPECT_THAT(complaint([&] { encode_bias(bare.surface, bare.rest, bias, 64); }), HasSubstr("no uv"));
-  EXPECT_THAT(complaint([&] { encode_bias(sheet.surface, sheet.rest, random_bias(sheet, 1), 16); }),
+  EXPECT_THAT(test::error_of([&] { decode_bias(bare.surface, bare.rest, square, "a.png"); }),
+              HasSubstr("no uv"));
+  EXPECT_THAT(test::error_of([&] { encode_bias(bare.surface, bare.rest, bias, 64); }), HasSubstr("no uv"));
+  EXPECT_THAT(test::error_of([&] { encode_bias(sheet.surface, sheet.rest, random_bias(sheet, 1), 16); }),
               HasSubstr("16 texels a side are too few"));
   Sheet outside = sheet;
   outside.surface.render_vertices[0].uv.x = 1.5F;
-  EXPECT_THAT(complaint([&] { encode_bias(outside.surface, outside.rest, bias, 64); }),
+  EXPECT_THAT(test::error_of([&] { encode_bias(outside.surface, outside.rest, bias, 64); }),
               HasSubstr("outside 0…1"));
 }
 

@@ -11,6 +11,7 @@
 #include "io/ply.h"
 #include "io/png.h"
 #include "paint/canvas.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/sheets.h"
 
@@ -61,13 +62,7 @@ std::vector<glm::dvec3> painted(const Sheet& sheet, const std::vector<PaintStrok
 }
 
 std::string complaint(const Sheet& sheet, const PaintStroke& one) {
-  try {
-    painted(sheet, {one});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { painted(sheet, {one}); });
 }
 
 double smooth(double part) {

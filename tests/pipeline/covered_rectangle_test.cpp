@@ -12,6 +12,7 @@
 #include "passes/render.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/stepper.h"
+#include "support/files.h"
 #include "support/opengl.h"
 
 namespace plisse::pipeline {
@@ -32,7 +33,7 @@ class CoveredRectangle : public test::OpenGlTest, public ::testing::WithParamInt
 
 TEST_P(CoveredRectangle, DoesNotShow) {
   const Setting& setting = GetParam();
-  SceneSettings settings = load_scene(std::string(PLISSE_SOURCE_DIR "/assets/") + setting.scene + ".toml");
+  SceneSettings settings = load_scene(test::asset(setting.scene + std::string(".toml")).string());
   settings.model.loop = false;
   settings.output.width = 230;  // no multiple of the driver's tiles
   settings.output.height = 170;

@@ -217,7 +217,7 @@ TEST_F(Frames, SkipExistingTrustsDataPicturesAndShadersToo) {
   EXPECT_FALSE(is_skipped());
 
   std::filesystem::copy(
-      std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", shaders.path(),
+      test::source_file("shaders"), shaders.path(),
       std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
   request.shader_folder = shaders.path().string();
   EXPECT_TRUE(is_skipped()) << "the same shaders from a folder";

@@ -1,6 +1,7 @@
 // The example panels from file to meshes and pictures: the bounds of docs/sizing.md hold for each.
 #include "pipeline/size.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -53,7 +54,9 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
 }
 
 TEST(Size, TheExamplesAreAsTheirScriptMakesThem) {
-  EXPECT_EQ(std::system("'" PLISSE_SOURCE_DIR "/tools/make_panels' --check > /dev/null"), 0);
+  const std::string check =
+      fmt::format("'{}' --check > /dev/null", test::source_file("tools/make_panels").string());
+  EXPECT_EQ(std::system(check.c_str()), 0);
 }
 
 TEST(Size, TheSameFileGivesTheSameBytes) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/import.h"
+#include "support/errors.h"
 
 namespace plisse {
 namespace {
@@ -93,17 +94,6 @@ std::vector<double> edge_lengths(const Surface& surface, const std::vector<glm::
 void expect_same(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], tolerance) << i;
-}
-
-template <typename Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::bad_input);
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Animation, CountsFramesAsTheContractSays) {
@@ -269,9 +259,10 @@ TEST(Animation, RestPoses) {
     const glm::dvec3 expected{0, -std::sin(1.5), std::cos(1.5)};
     EXPECT_NEAR(glm::distance(glm::dvec3(vertex.normal), expected), 0, 1e-6);  // floats
   }
-  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "frame:26"}); }), testing::HasSubstr("1 to 25"));
-  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "frame:x"}); }), testing::HasSubstr("frame:N"));
-  EXPECT_THAT(error_of([&] { Animation(model, {.rest = "gone.obj"}); }), testing::HasSubstr("gone.obj"));
+  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "frame:26"}); }), testing::HasSubstr("1 to 25"));
+  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "frame:x"}); }), testing::HasSubstr("frame:N"));
+  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "gone.obj"}); }),
+              testing::HasSubstr("gone.obj"));
 }
 
 TEST(Animation, ChoosesClips) {
@@ -284,9 +275,9 @@ TEST(Animation, ChoosesClips) {
   EXPECT_EQ(Animation(model, {.clip = "Walk"}).clip_name(), "Walk");
   EXPECT_EQ(Animation(model, {.clip = "2"}).clip_name(), "Run");
   EXPECT_THAT(
-      error_of([&] { Animation(model, {.clip = "wolk"}); }),
+      test::error_of([&] { Animation(model, {.clip = "wolk"}); }),
       testing::HasSubstr("did you mean 'Walk'?); it has, by index or name: 0 'Survey', 1 'Walk', 2 'Run'"));
-  EXPECT_THAT(error_of([&] { Animation(model, {.clip = "3"}); }),
+  EXPECT_THAT(test::error_of([&] { Animation(model, {.clip = "3"}); }),
               testing::HasSubstr("0 'Survey', 1 'Walk', 2 'Run'"));
 }
 

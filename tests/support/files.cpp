@@ -46,12 +46,20 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
+std::filesystem::path source_file(const std::string& name) {
+  return std::filesystem::path(PLISSE_SOURCE_DIR) / name;
+}
+
 std::filesystem::path asset(const std::string& name) {
-  return std::filesystem::path(PLISSE_SOURCE_DIR) / "assets" / name;
+  return source_file("assets") / name;
 }
 
 std::filesystem::path shared_data(const std::string& name) {
-  return std::filesystem::path(PLISSE_SOURCE_DIR) / ".." / "shared" / "data" / name;
+  return source_file("..") / "shared" / "data" / name;
+}
+
+std::string program_path() {
+  return PLISSE_PROGRAM;
 }
 
 }  // namespace plisse::test

@@ -30,7 +30,10 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 // Names of what a folder holds, sorted; hidden ones included.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
-// Files of the project and of the data beside it (which may be absent).
+// Files of the project, the finished program, and the data beside the project (which may be absent). The
+// paths are known to one source file alone, so that a compiler cache serves every checkout.
+std::filesystem::path source_file(const std::string& name);
+std::string program_path();
 std::filesystem::path asset(const std::string& name);
 std::filesystem::path shared_data(const std::string& name);
 

@@ -176,8 +176,8 @@ TEST_F(Program, MemoryThatIsTooSmallIsSeventyFiveAndReported) {
   const TemporaryFolder folder;
   const std::string report = (folder / "report.json").string();
   const Outcome outcome =
-      run_program("/bin/sh", {"-c", std::string("ulimit -v 1500000; exec ") + PLISSE_PROGRAM + " render " +
-                                        square + " --frames 1-2 --samples 1 --size 16000x16000 -o " +
+      run_program("/bin/sh", {"-c", "ulimit -v 1500000; exec " + program_path() + " render " + square +
+                                        " --frames 1-2 --samples 1 --size 16000x16000 -o " +
                                         (folder / "f").string() + " --json " + report});
   EXPECT_EQ(outcome.code, 75) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("error: "));
@@ -187,7 +187,7 @@ TEST_F(Program, TheHistoryIsInterruptedToo) {
   const TemporaryFolder folder;
   // A thousand steps of six thousand vertices between the two: seconds.
   const Outcome outcome =
-      interrupt_program(PLISSE_PROGRAM,
+      interrupt_program(program_path(),
                         with_tiny({"render", asset("model_b.glb").string(), "--fps", "1000", "--frames",
                                    "1,1000", "-o", folder.path().string()}),
                         SIGINT, folder / "frame_0001.png");
@@ -198,7 +198,7 @@ TEST_F(Program, ASignalEndsItBetweenFrames) {
   for (const auto& [signal, code] : {std::pair(SIGTERM, 143), std::pair(SIGINT, 130)}) {
     const TemporaryFolder folder;
     const Outcome outcome = interrupt_program(
-        PLISSE_PROGRAM,
+        program_path(),
         {"render", asset("sleeve.toml").string(), "--size", "320x256", "-o", folder.path().string()}, signal,
         folder / "frame_0002.png");
     EXPECT_EQ(outcome.code, code) << outcome.err;
@@ -216,7 +216,7 @@ TEST_F(Program, AnInterruptedVerifyGivesNoVerdict) {
   const TemporaryFolder folder;
   const std::string report = (folder / "report.json").string();
   const Outcome outcome = interrupt_program_saying(
-      PLISSE_PROGRAM,
+      program_path(),
       {"verify", asset("sleeve.toml").string(), "--size", "160x128", "--frames", "1-72", "--json", report},
       SIGINT, "\n");  // the first frame's line
   EXPECT_EQ(outcome.code, 130) << outcome.err;

@@ -34,7 +34,7 @@ class Mutations : public Program, public ::testing::WithParamInterface<Mutation>
 TEST_P(Mutations, AreNoticed) {
   const Mutation& mutation = GetParam();
   const TemporaryFolder folder;
-  std::filesystem::copy(std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", folder / "shaders",
+  std::filesystem::copy(test::source_file("shaders"), folder / "shaders",
                         std::filesystem::copy_options::recursive);
   if (!mutation.file.empty()) {
     const auto path = folder / ("shaders/" + mutation.file);

@@ -76,8 +76,7 @@ TEST_F(Paint, StrokesAndTheirFilesMakeTheSameFrames) {
   const std::string strokes_scene = (folder / "strokes.toml").string(),
                     shaders = (folder / "shaders").string();
   EXPECT_EQ(plisse({"verify", strokes_scene, "-q"}).code, 0);
-  std::filesystem::copy(std::filesystem::path(PLISSE_SOURCE_DIR) / "shaders", shaders,
-                        std::filesystem::copy_options::recursive);
+  std::filesystem::copy(test::source_file("shaders"), shaders, std::filesystem::copy_options::recursive);
   std::string crush = read_text(folder / "shaders/crush.comp");
   const std::string line = "m0 -= dot(m0, q) * q;";
   ASSERT_NE(crush.find(line), std::string::npos);

@@ -14,7 +14,7 @@ namespace plisse::test {
 
 inline Outcome plisse(const std::vector<std::string>& arguments, const Environment& environment = {},
                       const std::filesystem::path& folder = ".") {
-  return run_program(PLISSE_PROGRAM, arguments, environment, folder);
+  return run_program(program_path(), arguments, environment, folder);
 }
 
 // Tests whose program draws.
