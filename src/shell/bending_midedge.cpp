@@ -1,0 +1,111 @@
+#include "shell/bending_midedge.h"
+
+#include <Eigen/Geometry>
+
+#include "shell/jet.h"
+
+namespace plisse::shell {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector3d;
+
+// A hinge by the three vectors from corner i: to the edge's ends p, q, and to d beyond it.
+using Nine = Jet<9>;
+using Vector = std::array<Nine, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Nine dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector unit(const Vector& a) {
+  const Nine inverse = reciprocal(sqrt(dot(a, a)));
+  return {a[0] * inverse, a[1] * inverse, a[2] * inverse};
+}
+
+// What fundamental_forms.cpp calls a rise: (p − corner i)·n_i.
+Nine rise_of(const Vector3d& p, const Vector3d& q, const Vector3d& d) {
+  Vector to_p, to_q, to_d;
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    to_p[at] = Nine::variable(p[k], k);
+    to_q[at] = Nine::variable(q[k], 3 + k);
+    to_d[at] = Nine::variable(d[k], 6 + k);
+  }
+  const Vector normal = unit(cross(to_p, to_q)), beyond = unit(cross(minus(to_d, to_p), minus(to_q, to_p)));
+  const Vector sum = {normal[0] + beyond[0], normal[1] + beyond[1], normal[2] + beyond[2]};
+  // p is perpendicular to the face's own normal, so of the sum only the other one counts.
+  return dot(to_p, beyond) * reciprocal(sqrt(dot(sum, sum)));
+}
+
+bool usable(const Vector3d& p, const Vector3d& q, const Vector3d& d) {
+  const Vector3d one = p.cross(q), two = (d - p).cross(q - p);
+  if (!(one.squaredNorm() > 0) || !(two.squaredNorm() > 0)) return false;
+  return (one.normalized() + two.normalized()).squaredNorm() > 1e-12;
+}
+
+}  // namespace
+
+double bending_midedge(const Material& material, const RestFace& rest, const Matrix2d& rest_form,
+                       const Corners& corners, const Corners& across, const std::array<bool, 3>& has,
+                       Vector18* gradient, Matrix18* hessian, Curvature curvature) {
+  const double thickness = material.thickness;
+  const double scale = rest.area * thickness * thickness * thickness / 12;
+  const double alpha = material.alpha(), beta = material.beta();
+
+  // II − II_u = −2 Σ rise_i G_i − II_u, G_i = ∇λ_i ∇λ_iᵀ: the energy is quadratic in the rises.
+  std::array<Matrix2d, 3> shape;
+  std::array<Nine, 3> rise;
+  std::array<bool, 3> live{};
+  Matrix2d difference = -rest_form;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    shape[at] = -2 * rest.gradients.col(i) * rest.gradients.col(i).transpose();
+    if (!has[at]) continue;
+    const Vector3d origin = corners.col(i);
+    const Vector3d p = corners.col((i + 1) % 3) - origin, q = corners.col((i + 2) % 3) - origin;
+    const Vector3d d = across.col(i) - origin;
+    live[at] = usable(p, q, d);
+    if (!live[at]) continue;
+    if (gradient || hessian) {
+      rise[at] = rise_of(p, q, d);
+    } else {
+      const Vector3d beyond = (d - p).cross(q - p).normalized();
+      rise[at].value = p.dot(beyond) / (p.cross(q).normalized() + beyond).norm();
+    }
+    difference += rise[at].value * shape[at];
+  }
+  const auto product = [&](const Matrix2d& a, const Matrix2d& b) {  // the bilinear form of ‖·‖²_SV
+    return alpha / 2 * a.trace() * b.trace() + beta * (a * b).trace();
+  };
+  if (gradient) gradient->setZero();
+  if (hessian) hessian->setZero();
+  if (gradient || hessian) {
+    std::array<Eigen::Matrix<double, 9, 18>, 3> jacobian;  // of (p, q, d) by corners and vertices across
+    std::array<Vector18, 3> slope;
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (!live[at]) continue;
+      jacobian[at].setZero();
+      const std::array<int, 3> moved = {(i + 1) % 3, (i + 2) % 3, 3 + i};
+      for (int k = 0; k < 3; ++k) {
+        jacobian[at].block<3, 3>(3 * k, 3 * moved[static_cast<std::size_t>(k)]).setIdentity();
+        jacobian[at].block<3, 3>(3 * k, 3 * i) = -Eigen::Matrix3d::Identity();
+      }
+      slope[at] = jacobian[at].transpose() * rise[at].first;
+      const double force = 2 * scale * product(shape[at], difference);
+      if (gradient) *gradient += force * slope[at];
+      if (hessian && curvature == Curvature::exact)
+        *hessian += jacobian[at].transpose() * (force * rise[at].second) * jacobian[at];
+    }
+    if (hessian)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (live[i] && live[j])
+            *hessian += 2 * scale * product(shape[i], shape[j]) * slope[i] * slope[j].transpose();
+  }
+  return scale * product(difference, difference);
+}
+
+}  // namespace plisse::shell

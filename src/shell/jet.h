@@ -1,0 +1,78 @@
+// Numbers that carry first and second derivatives by N variables: forward differentiation of short formulas
+// whose Hessians by hand would be pages.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace plisse::shell {
+
+template <int N>
+struct Jet {
+  double value = 0;
+  Eigen::Matrix<double, N, 1> first = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, N> second = Eigen::Matrix<double, N, N>::Zero();
+
+  static Jet variable(double value, int index) {
+    Jet jet;
+    jet.value = value;
+    jet.first[index] = 1;
+    return jet;
+  }
+  // f(this), from f and its first two derivatives there.
+  Jet through(double f, double df, double ddf) const {
+    Jet result;
+    result.value = f;
+    result.first = df * first;
+    result.second = df * second + (ddf * first) * first.transpose();
+    return result;
+  }
+};
+
+template <int N>
+Jet<N> operator+(const Jet<N>& a, const Jet<N>& b) {
+  Jet<N> sum;
+  sum.value = a.value + b.value;
+  sum.first = a.first + b.first;
+  sum.second = a.second + b.second;
+  return sum;
+}
+
+template <int N>
+Jet<N> operator-(const Jet<N>& a, const Jet<N>& b) {
+  Jet<N> difference;
+  difference.value = a.value - b.value;
+  difference.first = a.first - b.first;
+  difference.second = a.second - b.second;
+  return difference;
+}
+
+template <int N>
+Jet<N> operator*(const Jet<N>& a, const Jet<N>& b) {
+  Jet<N> product;
+  product.value = a.value * b.value;
+  product.first = a.value * b.first + b.value * a.first;
+  product.second = a.value * b.second + b.value * a.second;
+  product.second += a.first * b.first.transpose();
+  product.second += b.first * a.first.transpose();
+  return product;
+}
+
+template <int N>
+Jet<N> operator*(double a, const Jet<N>& b) {
+  return b.through(a * b.value, a, 0);
+}
+
+template <int N>
+Jet<N> sqrt(const Jet<N>& a) {
+  const double root = std::sqrt(a.value);
+  return a.through(root, 0.5 / root, -0.25 / (a.value * root));
+}
+
+template <int N>
+Jet<N> reciprocal(const Jet<N>& a) {
+  const double inverse = 1 / a.value;
+  return a.through(inverse, -inverse * inverse, 2 * inverse * inverse * inverse);
+}
+
+}  // namespace plisse::shell

@@ -1,0 +1,53 @@
+// Stretching energy of a triangle: St. Venant–Kirchhoff (Chen et al. 2021, eq. 2 and 34) and its relaxation by
+// tension field theory (appendix B; Pipkin 1986), where compression costs nothing.
+//
+// Energies are those of eq. 1 without its leading ½ (docs/drape.md): per rest area ψ = h/4 W(λ₁, λ₂), with
+// λ₁ ≥ λ₂ the eigenvalues of I − I_u, twice the Green strain.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "shell/fundamental_forms.h"
+#include "shell/material.h"
+
+namespace plisse::shell {
+
+enum class Stretching { stvk, tension_field };
+
+struct StretchingLaw {
+  Material material;
+  Stretching model = Stretching::tension_field;
+  // η: ψ = (1 − η) ψ_tension_field + η ψ_stvk, so that what is slack keeps a little of its stiffness. 0 … 1;
+  // 0: none. Spreads strain that tension field theory leaves undetermined.
+  double residual = 0;
+};
+
+// What tension field theory calls a strain: whether it carries no stress, one, or two.
+enum class TensionState { slack, wrinkled, taut };
+
+// The branches meet where the stress of the relaxed law is continuous: at λ₁ = 0 and λ₂ = −νλ₁.
+TensionState tension_state(const Material& material, double lambda1, double lambda2);
+
+// ψ and its derivatives by the two eigenvalues, J/m².
+struct StretchingDensity {
+  double value = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  // of a wrinkled or slack branch: its own one-sided one
+  double shear = 0;  // (ψ₁ − ψ₂)/(λ₁ − λ₂), its limit where both are equal
+};
+StretchingDensity stretching_density(const StretchingLaw& law, double lambda1, double lambda2);
+
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+// exact: the second derivative. positive: without the negative curvature that compressed triangles have in
+// space; tension field alone has none.
+enum class Curvature { exact, positive };
+
+// Energy of a triangle, J; its gradient and Hessian by the corners x₀ y₀ z₀ x₁ … are written where asked for.
+// Finite for every finite position, collapsed and inverted triangles included.
+double stretching(const StretchingLaw& law, const RestFace& rest, const Corners& corners,
+                  Vector9* gradient = nullptr, Matrix9* hessian = nullptr,
+                  Curvature curvature = Curvature::exact);
+
+}  // namespace plisse::shell
