@@ -1,5 +1,5 @@
-// Bending energy that is quadratic in the positions, for shells that are flat at rest (Bergou et al. 2006; Chen
-// et al. 2021, eq. 28).
+// Bending energy that is quadratic in the positions, for shells that are flat at rest (Bergou et al. 2006;
+// Chen et al. 2021, eq. 28).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -11,13 +11,13 @@ namespace plisse::shell {
 
 // Q, V×V, so that the energy is ½ Σ over x, y, z of xᵀ Q x, J: B/2 ∫ |Δ_u r|² dA, where eq. 28 has α for
 // B = Y h³/12(1−ν²) = (h³/12)(α + 2β); α would be 0 for ν = 0. Δ_u is the cotangent Laplacian over the rest
-// triangles with lumped masses of mixed Voronoi areas (Meyer et al. 2003), with which it is exact for quadratic
-// functions on regular meshes, the right-angled ones with either diagonal included.
+// triangles with lumped masses of mixed Voronoi areas (Meyer et al. 2003), with which it is exact for
+// quadratic functions on regular meshes, the right-angled ones with either diagonal included.
 //
-// At free boundaries the flux through the boundary is that of the triangle there, so that linear functions cost
-// nothing: what is flat or rigidly moved has no energy, and the curvature across a free edge is taken to vanish
-// there, as it does on a plate that nobody holds (Wang et al. 2015 has a correction for the same purpose).
-// Where sewn panels meet at a seam the boundary is none.
+// At free boundaries the flux through the boundary is that of the triangle there, so that linear functions
+// cost nothing: what is flat or rigidly moved has no energy, and the curvature across a free edge is taken to
+// vanish there, as it does on a plate that nobody holds (Wang et al. 2015 has a correction for the same
+// purpose). Where sewn panels meet at a seam the boundary is none.
 Eigen::SparseMatrix<double> bending_quadratic(const Material& material, const Topology& topology,
                                               const std::vector<RestFace>& rest);
 

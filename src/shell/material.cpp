@@ -13,7 +13,8 @@ void check(const Material& material) {
   std::string problems;
   const auto demand = [&](bool holds, const char* name, double value, const char* allowed) {
     if (holds && std::isfinite(value)) return;
-    problems += fmt::format("{}the {} is {}; allowed: {}", problems.empty() ? "" : "; ", name, value, allowed);
+    problems +=
+        fmt::format("{}the {} is {}; allowed: {}", problems.empty() ? "" : "; ", name, value, allowed);
   };
   demand(material.young > 0, "Young's modulus", material.young, "more than 0 Pa");
   demand(material.poisson >= 0 && material.poisson <= 0.5, "Poisson ratio", material.poisson, "0 to 0.5");

@@ -4,10 +4,10 @@
 namespace plisse::shell {
 
 struct Material {
-  double young = 1e6;         // Y, Pa
-  double poisson = 0.3;       // ν, 0 … 0.5
-  double thickness = 1e-3;    // h, m
-  double density = 0;         // kg/m³ of the rest volume
+  double young = 1e6;       // Y, Pa
+  double poisson = 0.3;     // ν, 0 … 0.5
+  double thickness = 1e-3;  // h, m
+  double density = 0;       // kg/m³ of the rest volume
 
   // The Lamé parameters of plane stress, Pa: ‖M‖²_SV = α/2 tr²M + β tr M².
   double alpha() const { return young * poisson / (1 - poisson * poisson); }

@@ -18,8 +18,8 @@ RestFace rest_face(const Eigen::Matrix<double, 2, 3>& corners, std::size_t face)
   const double longest = std::max({rest.edges.col(0).squaredNorm(), rest.edges.col(1).squaredNorm(),
                                    (corners.col(2) - corners.col(1)).squaredNorm()});
   if (!(rest.area > 1e-12 * longest) || !rest.edges.allFinite())
-    throw Error(ExitCode::bad_input, fmt::format("rest triangle {} has no area (corners within {:.3g} m)", face,
-                                                 std::sqrt(longest)));
+    throw Error(ExitCode::bad_input, fmt::format("rest triangle {} has no area (corners within {:.3g} m)",
+                                                 face, std::sqrt(longest)));
   const Eigen::Matrix2d inverse = rest.edges.inverse();
   rest.gradients.col(1) = inverse.row(0);
   rest.gradients.col(2) = inverse.row(1);

@@ -14,9 +14,9 @@ using Positions = Eigen::Matrix3Xd;
 
 // A rest triangle in orthonormal coordinates (u, v) of its own plane, so that there I_u is the identity.
 struct RestFace {
-  Eigen::Matrix2d edges;                   // columns: corner 1 − corner 0, corner 2 − corner 0, m
-  Eigen::Matrix<double, 2, 3> gradients;   // column k: ∇ of the hat function of corner k, 1/m
-  double area = 0;                         // m², > 0
+  Eigen::Matrix2d edges;                  // columns: corner 1 − corner 0, corner 2 − corner 0, m
+  Eigen::Matrix<double, 2, 3> gradients;  // column k: ∇ of the hat function of corner k, 1/m
+  double area = 0;                        // m², > 0
 };
 
 // Corners of one rest triangle in space, one a column; u runs along the first edge. Throws Error(bad_input)

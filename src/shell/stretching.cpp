@@ -98,8 +98,7 @@ double stretching(const StretchingLaw& law, const RestFace& rest, const Corners&
     }
     Eigen::Matrix<double, 6, 9> jacobian = Eigen::Matrix<double, 6, 9>::Zero();  // of (f₁, f₂) by the corners
     for (int i = 0; i < 2; ++i)
-      for (int k = 0; k < 3; ++k)
-        jacobian.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(weight(i, k));
+      for (int k = 0; k < 3; ++k) jacobian.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(weight(i, k));
     *hessian = rest.area * jacobian.transpose() * h * jacobian;
   }
   return rest.area * density.value;

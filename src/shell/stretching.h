@@ -1,5 +1,5 @@
-// Stretching energy of a triangle: St. Venant–Kirchhoff (Chen et al. 2021, eq. 2 and 34) and its relaxation by
-// tension field theory (appendix B; Pipkin 1986), where compression costs nothing.
+// Stretching energy of a triangle: St. Venant–Kirchhoff (Chen et al. 2021, eq. 2 and 34) and its relaxation
+// by tension field theory (appendix B; Pipkin 1986), where compression costs nothing.
 //
 // Energies are those of eq. 1 without its leading ½ (docs/drape.md): per rest area ψ = h/4 W(λ₁, λ₂), with
 // λ₁ ≥ λ₂ the eigenvalues of I − I_u, twice the Green strain.

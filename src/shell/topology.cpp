@@ -77,7 +77,8 @@ Topology build_topology(std::vector<Face> faces, std::size_t vertex_count) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const auto [a, b, c] = faces[f];
     if (std::max({a, b, c}) >= vertex_count)
-      problems.add(fmt::format("face {} names vertex {}, and there are {}", f, std::max({a, b, c}), vertex_count));
+      problems.add(
+          fmt::format("face {} names vertex {}, and there are {}", f, std::max({a, b, c}), vertex_count));
     else if (a == b || b == c || c == a)
       problems.add(fmt::format("face {} names a vertex twice ({}, {}, {})", f, a, b, c));
   }

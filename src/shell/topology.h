@@ -14,8 +14,9 @@ inline constexpr std::uint32_t none = ~std::uint32_t{0};
 // Edges are (smaller, larger) vertex pairs in lexicographic order.
 struct Edge {
   std::array<std::uint32_t, 2> vertex{};
-  std::array<std::uint32_t, 2> face{none, none};      // the first: where the edge runs from vertex[0] to vertex[1]
-                                                      // if there is such a face; the second none on a boundary
+  std::array<std::uint32_t, 2> face{none,
+                                    none};  // the first: where the edge runs from vertex[0] to vertex[1]
+                                            // if there is such a face; the second none on a boundary
   std::array<std::uint32_t, 2> opposite{none, none};  // the third vertex of each face
   bool boundary() const { return face[1] == none; }
 };
@@ -31,8 +32,8 @@ struct Topology {
 };
 
 // Throws Error(bad_input), all problems at once (the first few of them by number): a face that names a vertex
-// which is not there or one twice; an edge with more than two faces; two faces that run along an edge the same
-// way, so that the shell has no outside.
+// which is not there or one twice; an edge with more than two faces; two faces that run along an edge the
+// same way, so that the shell has no outside.
 Topology build_topology(std::vector<Face> faces, std::size_t vertex_count);
 
 }  // namespace plisse::shell
