@@ -1,7 +1,8 @@
 // Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
-// texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; SINUSOID, whose profile
-// needs no table; FIELD, a solved wrinkle field besides; ALPHA, for materials that are masked or blended (a discard, though
-// never taken, costs 8 %); NORMAL_MAP and VERTEX_COLOURS, for those that have them.
+// texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; DISPLACED, with PLAIN,
+// one whose waves are geometry; SINUSOID, whose profile needs no table; FIELD, a solved wrinkle field besides; ALPHA, for
+// materials that are masked or blended (a discard, though never taken, costs 8 %); NORMAL_MAP and VERTEX_COLOURS, for those
+// that have them.
 #include "common/constants.glsl"
 
 #define INTERFACE in
@@ -158,6 +159,9 @@ void main() {
     float side = dot(plane, to_eye) < 0.0 ? -1.0 : 1.0;
     vec3 n = normalize(normal), ns = side * n, N = ns;
     float lost_slope = 0.0, occlusion = 1.0;
+#ifdef DISPLACED
+    occlusion = side > 0.0 ? relief_here.z : relief_here.w;
+#endif
     vec2 at = uv;
     float level = texture_level(dFdx(uv) * texels, dFdy(uv) * texels);
 #ifdef NORMAL_MAP
@@ -210,6 +214,10 @@ void main() {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (aov == AOV_NORMAL) colour.rgb = N;
     if (aov == AOV_DEPTH) colour.rgb = vec3(-dot(to_eye, view_forward));
+#ifdef DISPLACED
+    if (aov == AOV_HEIGHT) colour.rgb = vec3(relief_here.x);
+    if (aov == AOV_AMPLITUDE) colour.rgb = vec3(relief_here.y);
+#endif
 #ifndef PLAIN
     if (aov == AOV_HEIGHT) colour.rgb = vec3(wrinkle.height);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(wrinkle.amplitude);

@@ -18,6 +18,10 @@ layout(binding = 19) uniform samplerBuffer render_colours;
 layout(binding = 20) uniform samplerBuffer field;             // a corner each: its turns at the three corners, amplitude
 #endif
 
+#ifdef DISPLACED
+layout(binding = 20) uniform samplerBuffer reliefs;           // of a welded vertex: height, amplitude, sky in front, behind
+#endif
+
 #define INTERFACE out
 #define FLAT flat out
 #include "common/render_io.glsl"
@@ -62,7 +66,12 @@ void main() {
     for (int i = 0; i < 3; ++i) shadow_steps[i] = vec4(1.5 * shadow_texel.y * shadow_matrix[i].xyz, shadow_texel.x);
 #endif
 #ifdef AOV
+#ifndef DISPLACED
     tension = state(id[corner]).z;
+#endif
+#endif
+#ifdef DISPLACED
+    relief_here = texelFetch(reliefs, int(id[corner]));
 #endif
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);

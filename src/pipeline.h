@@ -20,10 +20,14 @@ namespace plisse {
 
 using GlInfo = gpu::Info;
 
+constexpr int most_levels = 8;  // of displaced geometry: each edge in 256
+
 struct RenderRequest {
   SceneSettings scene;
   bool skip_existing = false;     // trust a frame whose file is whole and whose hash is right
   std::string state_file;         // empty: none
+  bool displace = false;          // the waves as geometry in place of shading
+  std::optional<int> levels;      // with displace: how often edges are halved; none: as the waves need it
   std::vector<std::string> aovs;  // height, normal, amplitude, phase, direction, tension, depth
   int device = -1;                // −1: first that works
   std::string shader_folder;      // overrides the embedded shaders; empty: none

@@ -11,6 +11,9 @@ INTERFACE Varyings {
     vec3 field_tau;     // the carried field's three phases here, turns; linear over the triangle
 #endif
 #endif
+#ifdef DISPLACED
+    vec4 relief_here;   // height; amplitude; how much of the sky is seen here from in front and from behind
+#endif
 #ifdef NORMAL_MAP
     vec2 normal_uv;
 #endif

@@ -29,6 +29,13 @@ struct Arguments {
         ->type_name("NAMES")
         ->delimiter(',')
         ->allow_extra_args(false);
+    app.add_flag(
+        "--displace", displace,
+        described("Draw the wrinkles as geometry in place of shading: true silhouettes and shadows"));
+    app.add_option("--levels", levels,
+                   described("With --displace: halve the mesh's edges this often; default: as often as the "
+                             "waves need. Allowed: 0 … 8."))
+        ->type_name("N");
     app.add_option("--state", state,
                    described("Keep the waves' memory in this file, so that a later run goes on from it"))
         ->type_name("FILE");
@@ -48,6 +55,11 @@ struct Arguments {
     request.skip_existing = skip_existing;
     request.state_file = state;
     request.aovs = aovs;
+    request.displace = displace;
+    if (!levels.empty()) {
+      if (!displace) throw Error(ExitCode::bad_input, "--levels goes with --displace");
+      request.levels = whole_number("--levels", levels, 0, most_levels);
+    }
     request.device = device.device();
     request.shader_folder = shaders;
     return request;
@@ -57,7 +69,8 @@ struct Arguments {
   DeviceArguments device;
   CommonArguments common;
   std::vector<std::string> aovs;
-  std::string state, shaders;
+  std::string state, shaders, levels;
+  bool displace = false;
   bool skip_existing = false, overwrite = false;
 };
 
@@ -68,7 +81,7 @@ bool was_reached(const FrameReport& frame) {
 
 ordered_json to_json(const FrameReport& frame) {
   ordered_json ms = ordered_json::object();
-  for (const char* stage : {"skin", "crush", "relax", "render", "readback", "encode", "write"}) {
+  for (const char* stage : {"skin", "crush", "relax", "displace", "render", "readback", "encode", "write"}) {
     if (const auto found = frame.ms.find(stage); found != frame.ms.end()) ms[stage] = found->second;
   }
   for (const auto& [stage, time] : frame.ms) ms[stage] = time;

@@ -124,12 +124,8 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
                        const std::vector<std::vector<TextureLevel>>& textures,
                        const std::string& shader_folder)
     : look_(look), profile_(profile), parts_(std::move(parts)), shader_folder_(shader_folder) {
-  gpu::Defines defines;
-  if (look.plain) defines.emplace_back("PLAIN", "1");
+  gpu::Defines defines = surface_defines();
   if (look.shadows) defines.emplace_back("SHADOWS", "1");
-  if (!look.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
-  if (look.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
-  if (look.field) defines.emplace_back("FIELD", "1");
   if (is_sinusoid(profile)) defines.emplace_back("SINUSOID", "1");
   const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
   surface_ = make_programs(files, defines);
@@ -168,6 +164,16 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
   glTextureParameteri(profile_texture_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(profile_texture_, GL_TEXTURE_WRAP_S, GL_REPEAT);
   gpu::check("while preparing to render");
+}
+
+gpu::Defines RenderPass::surface_defines() const {
+  if (look_.displaced) return {{"PLAIN", "1"}, {"DISPLACED", "1"}};
+  gpu::Defines defines;
+  if (look_.plain) defines.emplace_back("PLAIN", "1");
+  if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
+  if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
+  if (look_.field) defines.emplace_back("FIELD", "1");
+  return defines;
 }
 
 RenderPass::~RenderPass() {
@@ -217,7 +223,10 @@ void RenderPass::bind_surface(const SurfaceBuffers& surface) {
   surface.render_vertices.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
   if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_colours; }))
     surface.render_colours.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec4);
-  if (look_.field) surface.field.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
+  if (look_.displaced)
+    surface.relief.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
+  else if (look_.field)
+    surface.field.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
   glBindTextureUnit(1, profile_texture_);
   glBindVertexArray(vertex_array_);
 }
@@ -408,10 +417,8 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
 void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                           Aov aov) {
   if (aov_.empty()) {
-    gpu::Defines defines{{"AOV", "1"}};
-    if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
-    if (look_.field) defines.emplace_back("FIELD", "1");
-    if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
+    gpu::Defines defines = surface_defines();
+    defines.emplace_back("AOV", "1");
     aov_ = make_programs({"render.vert", "render.frag"}, defines);
   }
   glDisable(GL_FRAMEBUFFER_SRGB);

@@ -35,9 +35,10 @@ struct View {
 
 struct Look {
   bool smooth_blend = true, full_gradient = true;
-  bool plain = false;  // no waves at all
-  bool field = false;  // the surface carries a solved wrinkle field (VertexWaves::field)
-  bool phong = false;  // with plain: textured Phong, the yardstick of the benchmark
+  bool plain = false;      // no waves at all
+  bool field = false;      // the surface carries a solved wrinkle field (VertexWaves::field)
+  bool displaced = false;  // the surface is a displaced one (SurfaceBuffers::show); without waves of its own
+  bool phong = false;      // with plain: textured Phong, the yardstick of the benchmark
   bool shadows = false, ground = false, wireframe = false;
   double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;
   glm::dvec3 background{0.6};  // linear
@@ -98,6 +99,7 @@ class RenderPass {
   void draw_backdrop(const View& view);
   // A program for every set of features that the parts' materials need (render.cpp, features_of).
   using Programs = std::map<unsigned, gpu::Program>;
+  gpu::Defines surface_defines() const;  // what the surface's programs are compiled for
   Programs make_programs(const std::vector<std::string>& files, const gpu::Defines& defines) const;
   void draw_parts(const Programs& programs, bool blended);  // opaque and masked parts, or blended ones
   unsigned depth_map(unsigned& framebuffer, int size);

@@ -48,6 +48,24 @@ glm::vec2 bias_in_frame(const glm::dvec3& p, const glm::dvec3& t, const glm::dve
   return glm::vec2(length > 0.99 ? q * (0.99 / length) : q);
 }
 
+bool has_colours(const Surface& surface) {
+  return std::any_of(surface.parts.begin(), surface.parts.end(),
+                     [](const Part& part) { return part.has_colours; });
+}
+
+// Calls work(fine vertex, the three render vertices of its triangle, barycentric coordinates) for every point
+// of every triangle; those on edges come once for each.
+template <typename Work>
+void for_each_point(const Surface& surface, const Subdivision& fine, const Work& work) {
+  const std::size_t points = fine.lattice.size();
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+    const RenderVertex* corners[3];
+    for (std::size_t c = 0; c < 3; ++c) corners[c] = &surface.render_vertices[surface.triangles[3 * t + c]];
+    for (std::size_t p = 0; p < points; ++p)
+      work(fine.points[t * points + p], corners, glm::vec3(fine.lattice[p]));
+  }
+}
+
 }  // namespace
 
 float initial_phase(std::uint32_t seed, std::uint32_t vertex) {
@@ -109,7 +127,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
         glm::vec4(glm::dot(m, t), glm::dot(m, glm::cross(n, t)), glm::dot(m, n), vertex.uv.x),
         glm::vec4(vertex.uv.y, vertex.normal_uv, 0)};
   }));
-  if (std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& p) { return p.has_colours; }))
+  if (has_colours(surface))
     render_colours = gpu::Buffer(mapped(surface.render_vertices.size(),
                                         [&](std::size_t i) { return surface.render_vertices[i].colour; }));
   triangle_corners = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
@@ -142,6 +160,43 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));
   counter = gpu::Buffer(sizeof(std::uint32_t));
+}
+
+SurfaceBuffers::SurfaceBuffers(const Surface& surface, const Subdivision& fine)
+    : vertex_count(fine.position_count), target_count(0), triangle_count(fine.triangle_count()) {
+  // The shaders' world in place of tangent frames: a normal's components are then its coordinates.
+  frames = gpu::Buffer(mapped(2 * vertex_count, [](std::size_t i) {
+    return i % 2 == 0 ? glm::vec4(0, 0, 1, 0) : glm::vec4(1, 0, 0, 0);
+  }));
+  triangle_corners = gpu::Buffer(mapped(fine.triangles.size(), [&](std::size_t i) {
+    return GpuCorner{fine.triangles[i], fine.vertices[fine.triangles[i]].position};
+  }));
+  if (has_colours(surface)) {
+    std::vector<glm::vec4> colours(fine.vertices.size());
+    for_each_point(surface, fine, [&](std::uint32_t id, const RenderVertex* const* v, const glm::vec3& b) {
+      colours[id] = b.x * v[0]->colour + b.y * v[1]->colour + b.z * v[2]->colour;
+    });
+    render_colours = gpu::Buffer(colours);
+  }
+  positions = gpu::Buffer(vertex_count * sizeof(glm::vec4));
+  relief = gpu::Buffer(vertex_count * sizeof(glm::vec4));
+  render_vertices = gpu::Buffer(fine.vertices.size() * sizeof(GpuRenderVertex));
+  for (gpu::Buffer* unused : {&offsets, &neighbours, &constants, &waves, &world_waves, &phases, &states})
+    *unused = gpu::Buffer(std::size_t{0});
+}
+
+void SurfaceBuffers::show(const Surface& surface, const Subdivision& fine,
+                          const DisplacedSurface& displaced) {
+  positions.write(mapped(vertex_count, [&](std::size_t i) { return single(displaced.positions[i], 1); }));
+  relief.write(mapped(vertex_count, [&](std::size_t i) { return glm::vec4(displaced.relief[i]); }));
+  std::vector<GpuRenderVertex> vertices(fine.vertices.size());
+  for_each_point(surface, fine, [&](std::uint32_t id, const RenderVertex* const* v, const glm::vec3& b) {
+    const glm::vec2 uv = b.x * v[0]->uv + b.y * v[1]->uv + b.z * v[2]->uv;
+    const glm::vec2 map = b.x * v[0]->normal_uv + b.y * v[1]->normal_uv + b.z * v[2]->normal_uv;
+    vertices[id] = {glm::vec4(glm::vec3(displaced.normals[fine.vertices[id].normal]), uv.x),
+                    glm::vec4(uv.y, map, 0)};
+  });
+  render_vertices.write(vertices);
 }
 
 void SurfaceBuffers::bind_for_reading() const {

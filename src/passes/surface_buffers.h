@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "mesh/subdivide.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "passes/model_units.h"
@@ -17,6 +18,9 @@ struct SurfaceBuffers {
   // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.
   SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves,
                  const ModelUnits& units, std::uint32_t seed);
+  // A displaced surface: what it looks like comes by `show`, and only Look::displaced draws it.
+  SurfaceBuffers(const Surface& surface, const Subdivision& fine);
+  void show(const Surface& surface, const Subdivision& fine, const DisplacedSurface& displaced);
 
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
@@ -26,6 +30,7 @@ struct SurfaceBuffers {
   gpu::Buffer render_vertices, triangle_corners;
   gpu::Buffer render_colours;  // one per render vertex where a part has colours, else nothing
   gpu::Buffer field;           // a corner each: its plane's turns at the three corners, amplitude; or nothing
+  gpu::Buffer relief;          // DisplacedSurface::relief
   // Per frame.
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).

@@ -184,11 +184,55 @@ std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
   return textures;
 }
 
+std::vector<reference::Triangle> reference_triangles(const ReferenceScene& scene,
+                                                     const WaveSnapshot& snapshot) {
+  const Surface& surface = scene.scene.surface();
+  const auto field = snapshot.field();
+  std::vector<reference::Triangle> triangles(surface.triangle_count());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    reference::Triangle& triangle = triangles[t];
+    for (int c = 0; c < 3; ++c) {
+      const RenderVertex& vertex =
+          surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
+      const auto v = static_cast<Index>(vertex.welded);
+      triangle.welded[static_cast<std::size_t>(c)] = vertex.welded;
+      triangle.waves.corners.col(c) = snapshot.positions.col(v);
+      triangle.waves.wavenumbers.col(c) = field.wavenumbers.col(v);
+      // A wave without a direction is not drawn.
+      triangle.waves.heights[c] = field.wavenumbers.col(v).isZero(0) ? 0 : snapshot.heights[v];
+      triangle.waves.phases[c] =
+          snapshot.phases[v] +
+          2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
+      if (!scene.scene.waves.field.empty()) {
+        const auto corner = static_cast<std::size_t>(c);
+        const FieldTriangle& carried = scene.scene.waves.field[t];
+        if (!triangle.field) triangle.field.emplace();
+        triangle.field->amplitudes[c] = carried.amplitude[corner] / scene.scene.units.metres;
+        for (int k = 0; k < 3; ++k)
+          triangle.field->turns(c, k) = carried.turns[corner][static_cast<std::size_t>(k)];
+      }
+      triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
+      triangle.normal_uv.col(c) = Eigen::Vector2f(vertex.normal_uv.x, vertex.normal_uv.y).cast<double>();
+      triangle.colours.col(c) =
+          Eigen::Vector4f(vertex.colour.r, vertex.colour.g, vertex.colour.b, vertex.colour.a).cast<double>();
+      // The rest normal's components ride in the posed frame.
+      const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
+      triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +
+                                snapshot.frames.normal.col(v) * scene.rest_frames.normal.col(v).dot(m);
+    }
+  }
+  return triangles;
+}
+
+reference::Profile reference_profile(const LoadedScene& scene) {
+  const auto& profile = scene.profile;
+  return reference::tabulated(profile.f, profile.derivative, profile.slope_variance);
+}
+
 reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot,
                                const passes::View& view, const std::vector<reference::Texture>& textures) {
-  const Surface& surface = scene.scene.surface();
   reference::Scene result;
-  const auto field = snapshot.field();
+  result.triangles = reference_triangles(scene, snapshot);
   const auto parts = scene.scene.draw_parts();
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& part = parts[p];
@@ -202,41 +246,8 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
     material.blended = part.has_alpha;
     material.two_sided = part.two_sided;
     result.materials.push_back(material);
-    for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-      reference::Triangle triangle;
-      triangle.material = static_cast<int>(p);
-      for (int c = 0; c < 3; ++c) {
-        const RenderVertex& vertex =
-            surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
-        const auto v = static_cast<Index>(vertex.welded);
-        triangle.welded[static_cast<std::size_t>(c)] = vertex.welded;
-        triangle.waves.corners.col(c) = snapshot.positions.col(v);
-        triangle.waves.wavenumbers.col(c) = field.wavenumbers.col(v);
-        // A wave without a direction is not drawn.
-        triangle.waves.heights[c] = field.wavenumbers.col(v).isZero(0) ? 0 : snapshot.heights[v];
-        triangle.waves.phases[c] =
-            snapshot.phases[v] +
-            2 * std::numbers::pi * snapshot.states[vertex.welded].direction.dot(scene.wander.col(v));
-        if (!scene.scene.waves.field.empty()) {
-          const auto corner = static_cast<std::size_t>(c);
-          const FieldTriangle& carried = scene.scene.waves.field[t];
-          if (!triangle.field) triangle.field.emplace();
-          triangle.field->amplitudes[c] = carried.amplitude[corner] / scene.scene.units.metres;
-          for (int k = 0; k < 3; ++k)
-            triangle.field->turns(c, k) = carried.turns[corner][static_cast<std::size_t>(k)];
-        }
-        triangle.uv.col(c) = Eigen::Vector2f(vertex.uv.x, vertex.uv.y).cast<double>();
-        triangle.normal_uv.col(c) = Eigen::Vector2f(vertex.normal_uv.x, vertex.normal_uv.y).cast<double>();
-        triangle.colours.col(c) =
-            Eigen::Vector4f(vertex.colour.r, vertex.colour.g, vertex.colour.b, vertex.colour.a)
-                .cast<double>();
-        // The rest normal's components ride in the posed frame.
-        const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
-        triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +
-                                  snapshot.frames.normal.col(v) * scene.rest_frames.normal.col(v).dot(m);
-      }
-      result.triangles.push_back(triangle);
-    }
+    for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      result.triangles[t].material = static_cast<int>(p);
   }
   result.textures = textures;
   result.camera.view_projection = eigen(view.view_projection);
@@ -254,8 +265,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
   result.shading.sheen = shading.sheen;
   result.shading.cavity = shading.cavity;
   result.shading.parallax = shading.parallax;
-  const auto& profile = scene.scene.profile;
-  result.profile = reference::tabulated(profile.f, profile.derivative, profile.slope_variance);
+  result.profile = reference_profile(scene.scene);
   return result;
 }
 

@@ -47,6 +47,12 @@ struct WaveSnapshot {
 };
 WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface);
 
+// The surface's triangles, in their order, with the waves, the field and the normals of a snapshot; materials
+// are left to picture_scene.
+std::vector<reference::Triangle> reference_triangles(const ReferenceScene& scene,
+                                                     const WaveSnapshot& snapshot);
+reference::Profile reference_profile(const LoadedScene& scene);
+
 // The picture of a snapshot. Textures are converted once and kept by the caller.
 reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot,
                                const passes::View& view, const std::vector<reference::Texture>& textures);

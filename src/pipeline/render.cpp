@@ -18,6 +18,7 @@
 #include "io/png.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
+#include "pipeline/displace.h"
 #include "pipeline/frame_writer.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/stepper.h"
@@ -80,6 +81,44 @@ ExitCode outcome(const std::vector<FrameReport>& frames) {
   return stands ? ExitCode::some_frames : ExitCode::try_again;
 }
 
+// A scene whose waves are geometry, as the render pass takes it.
+class DisplacedScene {
+ public:
+  DisplacedScene(const pipeline::LoadedScene& scene, std::optional<int> levels)
+      : scene_(scene), displacement_(scene, levels), buffers_(scene.surface(), displacement_.mesh()) {}
+  void move(const passes::SurfaceBuffers& surface) {
+    buffers_.show(scene_.surface(), displacement_.mesh(), displacement_.at(surface));
+  }
+  const passes::SurfaceBuffers& surface() const { return buffers_; }
+  std::vector<passes::DrawPart> parts() const {
+    auto parts = scene_.draw_parts();
+    const int segments = displacement_.mesh().segments;
+    for (passes::DrawPart& part : parts) {
+      part.first_triangle *= static_cast<std::uint32_t>(segments * segments);
+      part.triangle_count *= static_cast<std::uint32_t>(segments * segments);
+    }
+    return parts;
+  }
+
+ private:
+  const pipeline::LoadedScene& scene_;
+  pipeline::Displacement displacement_;
+  passes::SurfaceBuffers buffers_;
+};
+
+// Displaced geometry has these of its own; the others are of single waves.
+void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
+  using passes::Aov;
+  for (const Aov aov : aovs) {
+    if (displaced && (aov == Aov::phase || aov == Aov::direction || aov == Aov::tension)) {
+      throw Error(
+          ExitCode::bad_input,
+          "--aov: phase, direction and tension do not go with --displace; height, normal, amplitude and "
+          "depth do");
+    }
+  }
+}
+
 }  // namespace
 
 RenderReport render(const RenderRequest& request, const FrameCallback& on_frame) {
@@ -89,6 +128,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_frame_paths(output.path, frames);
   const auto aovs = pipeline::parse_aovs(request.aovs);
+  check_aovs(aovs, request.displace);
 
   if (!request.state_file.empty()) check_writable(request.state_file);
   const gpu::Context context(request.device);
@@ -107,6 +147,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   // Everything that only drawing needs is made when the first frame is drawn: a run that finds all frames
   // done is quick.
   std::optional<pipeline::Stepper> stepper;
+  std::optional<DisplacedScene> displaced;
   std::optional<passes::RenderPass> pass;
   std::optional<gpu::Target> target;
   std::optional<pipeline::AovWriter> aov_writer;
@@ -138,7 +179,8 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       entry.frame = frame;
       entry.time_s = scene.animation.timeline().time(frame);
       entry.path = frame_path(output.path, frame);
-      const std::string hash = scene.frame_hash(frame, driver);
+      std::string hash = scene.frame_hash(frame, driver);
+      if (request.displace) hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).hex();
       const bool exists = std::filesystem::exists(entry.path);
       if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
           pipeline::aovs_are_whole(aovs, entry.path, hash)) {
@@ -151,8 +193,11 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         stepper.emplace(scene, timer, request.shader_folder);
         if (!request.state_file.empty())
           stepper->read_state(request.state_file, driver, scene.step_of_frame(frame));
-        pass.emplace(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(),
-                     request.shader_folder);
+        if (request.displace) displaced.emplace(scene, request.levels);
+        passes::Look look = scene.look();
+        look.displaced = request.displace;
+        pass.emplace(look, scene.profile, displaced ? displaced->parts() : scene.draw_parts(),
+                     scene.texture_levels(), request.shader_folder);
         target.emplace(output.width, output.height, output.samples, gpu::Target::Format::srgb8);
         if (!aovs.empty()) aov_writer.emplace(scene, *pass, aovs);
       }
@@ -166,13 +211,21 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       const passes::View view = scene.view(frame);
       io::Image picture;
       guarded(entry, [&] {
+        const auto drawn = [&]() -> const passes::SurfaceBuffers& {
+          return displaced ? displaced->surface() : stepper->surface();
+        };
         const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before &&
                           scene.settings.camera.name.empty();
         if (same) {
           picture = last_picture;
         } else {
+          if (displaced) {
+            const double began = now_ms();
+            displaced->move(stepper->surface());
+            entry.ms["displace"] = now_ms() - began;
+          }
           timer.begin("render");
-          pass->draw_resolved(stepper->surface(), view, *target, context.info().software);
+          pass->draw_resolved(drawn(), view, *target, context.info().software);
           timer.end();
           const double read = now_ms();
           picture.width = output.width;
@@ -183,7 +236,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
           last_picture = picture;
         }
         last_picture_step = step;
-        if (aov_writer) aov_writer->write(stepper->surface(), view, entry.path, hash);
+        if (aov_writer) aov_writer->write(drawn(), view, entry.path, hash);
       });
       for (const auto& [stage, ms] : timer.collect()) entry.ms[stage] += ms;
 

@@ -46,19 +46,18 @@ Vector3d growth(const Vector3d& g, const Vector3d& n) {
   return length > 1e-15 ? Vector3d(along / length) : Vector3d::Zero();
 }
 
-// The sky that the bottom of a groove sees: a = 0 where there is no wave.
-double occlusion_of(double cavity, double amplitude, double height, double longest_wavenumber) {
-  if (!(amplitude > 0)) return 1;
-  const double depth = std::clamp(0.5 * (1 - height / amplitude), 0.0, 1.0);
-  const double q = 2 * pi * amplitude * longest_wavenumber;
-  return std::max(0.0, 1 - cavity * depth * (1 - 1 / std::sqrt(1 + q * q)));
-}
-
 double shoulder(double x) {
   return x < 0.8 ? x : 0.8 + 0.2 * (x - 0.8) / (x - 0.6);
 }
 
 }  // namespace
+
+double groove_occlusion(double cavity, double amplitude, double height, double longest_wavenumber) {
+  if (!(amplitude > 0)) return 1;
+  const double depth = std::clamp(0.5 * (1 - height / amplitude), 0.0, 1.0);
+  const double q = 2 * pi * amplitude * longest_wavenumber;
+  return std::max(0.0, 1 - cavity * depth * (1 - 1 / std::sqrt(1 + q * q)));
+}
 
 Vector4d sample(const Texture& texture, const Vector2d& uv, double level) {
   const double last = static_cast<double>(texture.levels.size() - 1);
@@ -148,7 +147,7 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
     longest_wavenumber = std::max(longest_wavenumber, slopes.colwise().norm().maxCoeff());
   }
   const double height = side * wave.height;
-  const double occlusion = occlusion_of(shading.cavity, amplitude, height, longest_wavenumber);
+  const double occlusion = groove_occlusion(shading.cavity, amplitude, height, longest_wavenumber);
 
   // Textures, shifted by the parallax.
   const auto corner_gradients = barycentric_gradients(waves.corners);

@@ -105,6 +105,10 @@ struct Shaded {
 };
 Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragment);
 
+// "Cavity": the share of the sky that a point of a groove sees, from the side toward which height counts; 1
+// where the amplitude is 0.
+double groove_occlusion(double cavity, double amplitude, double height, double longest_wavenumber);
+
 // Eq. 10 with (v·n)², for v and n_s unit and height along n_s: without parallax's strength, fade-out and
 // limit.
 Eigen::Vector3d parallax_shift(const Eigen::Vector3d& v, const Eigen::Vector3d& n_s, double height);

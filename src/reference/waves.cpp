@@ -78,6 +78,8 @@ BlendWeights smooth_weights(const Matrix3d& corners, const Matrix3d& gradients, 
     total_gradient += edge.share_gradient;
   }
   BlendWeights result;
+  // On a corner no edge has a share; what the weights tend to there is the corner's own wave, level.
+  if (barycentric.maxCoeff() == 1) return {barycentric, Matrix3d::Zero()};
   for (int j = 0; j < 3; ++j) {
     const EdgeBlend& out = edges[j];           // starts at this corner
     const EdgeBlend& in = edges[(j + 2) % 3];  // ends at it

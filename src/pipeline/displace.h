@@ -1,0 +1,38 @@
+// A scene's wrinkles as geometry: its surface split finely, and moved by the waves of a moment.
+#pragma once
+
+#include <optional>
+
+#include "mesh/subdivide.h"
+#include "passes/surface_buffers.h"
+#include "pipeline/loaded_scene.h"
+#include "pipeline/reference_scene.h"
+
+namespace plisse::pipeline {
+
+// How often edges have to be halved so that a wave has eight segments or more on the longest edge, whatever
+// frame; fewer where that made more than four million triangles (a warning says so). 0 without waves.
+int levels_for(const LoadedScene& scene);
+
+class Displacement {
+ public:
+  // Edges are halved `levels` times, or as levels_for says.
+  Displacement(const LoadedScene& scene, std::optional<int> levels);
+
+  int levels() const { return levels_; }
+  const Subdivision& mesh() const { return mesh_; }
+  // In model units; `metres` takes them to the world. Throws Error(check_failed) where something is not
+  // finite.
+  DisplacedSurface at(const WaveSnapshot& snapshot) const;
+  DisplacedSurface at(const passes::SurfaceBuffers& surface) const { return at(read_snapshot(surface)); }
+  glm::dvec3 metres(const glm::dvec3& x) const { return scene_.units.world_centre + scene_.units.metres * x; }
+
+ private:
+  const LoadedScene& scene_;
+  ReferenceScene reference_;
+  reference::Profile profile_;
+  int levels_;
+  Subdivision mesh_;
+};
+
+}  // namespace plisse::pipeline

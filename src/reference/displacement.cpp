@@ -1,0 +1,73 @@
+#include "reference/displacement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plisse::reference {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Where the plane of a triangle runs too steeply against the interpolated normal to be projected along it
+// (beyond 87°), eq. 7 is all there is.
+constexpr double steepest = 0.05;
+
+// Some unit vector at right angles to n.
+Vector3d perpendicular(const Vector3d& n) {
+  Eigen::Index smallest = 0;
+  n.cwiseAbs().minCoeff(&smallest);
+  return n.cross(Vector3d::Unit(smallest)).normalized();
+}
+
+}  // namespace
+
+Displaced displace(const Triangle& triangle, const Matrix3d& directions, const Vector3d& barycentric,
+                   const Profile& profile, Blend blend, double cavity) {
+  const Matrix3d& corners = triangle.waves.corners;
+  const HeightSample waves = height_and_gradient(triangle.waves, barycentric, profile, blend, Gradient::full);
+  Displaced result;
+  result.height = waves.height;
+  result.amplitude = waves.weights.dot(triangle.waves.heights);
+  Vector3d gradient = waves.gradient;
+  const Matrix3d slopes = barycentric_gradients(corners);
+  double longest = triangle.waves.wavenumbers.colwise().norm().maxCoeff();
+  if (triangle.field) {
+    const FieldSample carried = sample(*triangle.field, corners, barycentric, blend);
+    result.height += carried.height;
+    result.amplitude += carried.amplitude;
+    gradient += carried.gradient;
+    const Matrix3d planes = slopes * triangle.field->turns.transpose();
+    longest = std::max(longest, planes.colwise().norm().maxCoeff());
+  }
+  result.sky_front = groove_occlusion(cavity, result.amplitude, result.height, longest);
+  result.sky_back = groove_occlusion(cavity, result.amplitude, -result.height, longest);
+
+  const Vector3d mean = directions * barycentric;
+  const double length = mean.norm();
+  const Vector3d d = length > 0 ? Vector3d(mean / length) : Vector3d::Zero();
+  result.position = corners * barycentric + result.height * d;
+
+  const Vector3d n = (triangle.normals * barycentric).normalized();
+  result.normal = (n - gradient).normalized();
+  Vector3d plane = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+  plane = plane.norm() > 0 ? Vector3d(plane.normalized()) : Vector3d::Zero();
+  const double upright = n.dot(plane);
+  if (std::abs(upright) < steepest || length == 0) return result;
+  const Vector3d first = perpendicular(n), tangents[2] = {first, n.cross(first)};
+  Vector3d moved[2];  // what becomes of them
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d& t = tangents[i];
+    const Vector3d e = t - t.dot(plane) / upright * n;  // in the triangle's plane, above t
+    const Vector3d turning = directions * (slopes.transpose() * e);
+    const Vector3d bend = (turning - d.dot(turning) * d) / length;  // ∂d/∂e
+    moved[i] = t + gradient.dot(e) * n + result.height * (bend - n.dot(bend) * n);
+  }
+  const Vector3d normal = moved[0].cross(moved[1]);
+  // A height beyond the radius of the bend turns the surface over; then eq. 7 is the better answer.
+  if (normal.dot(n) > 0) result.normal = normal.normalized();
+  return result;
+}
+
+}  // namespace plisse::reference
