@@ -158,7 +158,9 @@ const std::vector<Key>& keys() {
       {"camera", "azimuth", number(camera(&CameraSettings::azimuth), azimuths, degrees),
        "Angle round the up axis; 0 looks along −z at the front."},
       // 89: straight up or down leaves the picture's own up direction undefined.
-      {"camera", "elevation", number(camera(&CameraSettings::elevation), {-89, 89}, degrees),
+      {"camera", "elevation",
+       number(camera(&CameraSettings::elevation),
+              {-89, 89, "15, up to 50 for what lies flat", CameraSettings::from_the_shape}, degrees),
        "Angle above the horizon."},
       {"camera", "distance",
        length(camera(&CameraSettings::distance), {1e-9, 1e9, "fitted over the whole clip"}),

@@ -101,7 +101,7 @@ std::function<std::string(const SceneSettings&)> shown_text(Member<std::string> 
 
 double within(double value, const Range& range) {
   finite(value);
-  const bool special = value == 0 && !range.zero.empty();
+  const bool special = value == range.special_value && !range.special.empty();
   if (!special && (value < range.low || value > range.high)) {
     throw Problem{fmt::format("{} is out of range", value), ""};
   }
@@ -110,7 +110,8 @@ double within(double value, const Range& range) {
 
 std::string range_text(const Range& range) {
   const std::string limits = fmt::format("{:g} … {:g}", range.low, range.high);
-  return range.zero.empty() ? limits : fmt::format("{}; 0: {}", limits, range.zero);
+  return range.special.empty() ? limits
+                               : fmt::format("{}; {}: {}", limits, range.special_value, range.special);
 }
 
 double number_of(const toml::node& node) {

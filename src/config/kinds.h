@@ -42,8 +42,9 @@ Member<Value> member(Group SceneSettings::*group, Value Group::*value) {
 
 struct Range {
   double low = 0, high = 1;
-  std::string_view zero =
-      {};  // what 0 stands for where it lies outside low … high and is allowed all the same
+  std::string_view special =
+      {};  // what one value outside low … high stands for, which is allowed all the same
+  double special_value = 0;
 };
 
 // What a TOML node holds; each throws Problem where it is something else.

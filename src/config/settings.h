@@ -59,13 +59,15 @@ struct RelaxSettings {
 };
 
 struct CameraSettings {
-  std::string name;            // a camera of the model by name or index; empty: the one below
-  double focal_length = 75;    // millimetres on a 36 mm wide film
-  double azimuth = 35;         // degrees round the up axis, 0 looks along −z at the front
-  double elevation = 15;       // degrees above the horizon
-  double distance = 0;         // metres; 0: fitted over the whole clip
-  double margin = 1.08;        // of the fit
-  bool explicit_pose = false;  // eye and target given
+  // An elevation that none can have: 15°, rising to 50° for what lies flat.
+  static constexpr double from_the_shape = 90;
+  std::string name;                   // a camera of the model by name or index; empty: the one below
+  double focal_length = 75;           // millimetres on a 36 mm wide film
+  double azimuth = 35;                // degrees round the up axis, 0 looks along −z at the front
+  double elevation = from_the_shape;  // degrees above the horizon
+  double distance = 0;                // metres; 0: fitted over the whole clip
+  double margin = 1.08;               // of the fit
+  bool explicit_pose = false;         // eye and target given
   glm::dvec3 eye{0}, target{0};
 };
 

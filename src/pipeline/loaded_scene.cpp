@@ -192,6 +192,13 @@ glm::dvec2 half_film(const SceneSettings& settings) {
   return aspect >= 1 ? glm::dvec2(half_long, half_long / aspect) : glm::dvec2(half_long * aspect, half_long);
 }
 
+// What lies flat is looked at from higher up, lest it be a line: from a height of 0.3 of the narrower side
+// downward.
+double elevation_for(const glm::dvec3& size) {
+  const double flat = 1 - std::min(size.y / std::max(0.3 * std::min(size.x, size.z), 1e-12), 1.0);
+  return 15 + 35 * flat;
+}
+
 }  // namespace
 
 // Where no camera is given, or only its direction: the place nearest to the model from which every sampled
@@ -201,6 +208,8 @@ CameraSettings LoadedScene::fitted_camera(const SceneSettings& given,
                                           const std::vector<glm::dvec3>& samples) const {
   CameraSettings camera = given.camera;
   if (!camera.name.empty() || camera.explicit_pose) return camera;
+  if (camera.elevation == CameraSettings::from_the_shape)
+    camera.elevation = elevation_for(bounds_.high - bounds_.low);
   const double a = glm::radians(camera.azimuth), e = glm::radians(camera.elevation);
   const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
   glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), toward);

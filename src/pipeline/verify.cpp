@@ -113,8 +113,8 @@ class Verifier {
       fail_render(
           fmt::format("render: {:.3g} % of the surface's pixels are silhouettes, which are not compared; at "
                       "most {:.3g} % may be: "
-                      "a larger --size leaves fewer",
-                      100 * report.silhouette_fraction, 100 * silhouette_limit));
+                      "a larger --size, up to {} pixels a side, or a closer --camera leaves fewer",
+                      100 * report.silhouette_fraction, 100 * silhouette_limit, largest_side));
     } else if (pictures_.image().count() == 0 && !report.frames.empty()) {
       fail_render(fmt::format("render: nothing in view to compare: no pixel of frame{} {} shows the model",
                               report.frames.size() == 1 ? "" : "s", fmt::join(report.frames, ", ")));

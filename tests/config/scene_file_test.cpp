@@ -198,7 +198,7 @@ TEST_F(SceneFile, OutOfRange) {
   EXPECT_THAT(complaint("[output]\nsamples = 2\n"), HasSubstr("allowed: 1 or 4"));
   EXPECT_THAT(complaint("[output]\nsize = \"0x5\"\n"), HasSubstr("0 is out of range"));
   EXPECT_THAT(complaint("[output]\nsize = [16385, 5]\n"), HasSubstr("16385 is out of range"));
-  EXPECT_THAT(complaint("[camera]\nelevation = 90\n"), HasSubstr("-89 … 89"));
+  EXPECT_THAT(complaint("[camera]\nelevation = 89.5\n"), HasSubstr("-89 … 89"));
   EXPECT_THAT(complaint("[light]\nkey_colour = [0, 0, 1.5]\n"), HasSubstr("1.5 is out of range"));
   EXPECT_NO_THROW(
       parse_after_model("[wrinkles]\nwavelength = 0\nstrength = 0\n[output]\nsize = \"16384x1\"\n"));
