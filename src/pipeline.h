@@ -113,6 +113,30 @@ struct PaintReport {
 // a warning where the model's uv cannot carry it) and as a preview frame.
 PaintReport paint_wrinkles(const PaintRequest& request);
 
+struct ExportRequest {
+  SceneSettings scene;
+  std::string output;         // mesh_####.ply|obj|glb, or CACHE.pc2|mdd
+  std::optional<int> levels;  // how often edges are halved; none: as the waves need it
+  int device = -1;
+  std::string shader_folder;
+};
+
+struct ExportReport {
+  struct Output {
+    std::string path, kind;  // mesh | cache
+    int frame = 0;           // 0 for a cache
+  };
+  std::vector<Output> outputs;
+  int levels = 0;
+  std::size_t positions = 0, triangles = 0;
+  bool interrupted = false;  // meshes written so far stand; a cache does not
+  double wall_s = 0;
+};
+
+// The displaced surface of each frame: metres, y up. Meshes have normals, uv and the materials' names; a
+// cache counts the vertices as an OBJ of the same scene and levels does.
+ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame);
+
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.
 double default_wavelength(const Surface& surface);

@@ -44,14 +44,19 @@ class Descriptor {
 };
 
 // 0 or errno.
-int write_all(Descriptor& file, std::span<const std::uint8_t> bytes) {
+int write_piece(int file, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return written < 0 ? errno : ENOSPC;
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  return file.close();
+  return 0;
+}
+
+int write_all(Descriptor& file, std::span<const std::uint8_t> bytes) {
+  const int error = write_piece(file.number(), bytes);
+  return error != 0 ? error : file.close();
 }
 
 // Short whatever the final name is, so that a name of the longest length allowed still has room for it.
@@ -109,6 +114,31 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::ui
   if (error == 0) return;
   ::unlink(temporary.c_str());
   fail_write(path, error);
+}
+
+WholeFile::WholeFile(const std::filesystem::path& path) : path_(path), target_(target_of(path)) {
+  if (!is_device(target_)) temporary_ = new_temporary(path, target_);
+  file_ = ::open((temporary_.empty() ? target_ : temporary_).c_str(), O_WRONLY | O_CLOEXEC);
+  if (file_ >= 0) return;
+  const int error = errno;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  fail_write(path, error);
+}
+
+WholeFile::~WholeFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void WholeFile::append(std::span<const std::uint8_t> bytes) {
+  if (const int error = write_piece(file_, bytes); error != 0) fail_write(path_, error);
+}
+
+void WholeFile::commit() {
+  if (::close(std::exchange(file_, -1)) != 0) fail_write(path_, errno);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, errno);
+  temporary_.clear();
 }
 
 void check_writable(const std::filesystem::path& path) {

@@ -17,6 +17,22 @@ namespace plisse {
 void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
+// The same piece by piece, for what is too large to be held at once: stands under its name from `commit` on,
+// and leaves nothing behind without it. All throw Error(no_output).
+class WholeFile {
+ public:
+  explicit WholeFile(const std::filesystem::path& path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+  void append(std::span<const std::uint8_t> bytes);
+  void commit();
+
+ private:
+  std::filesystem::path path_, target_, temporary_;  // temporary_ is empty for devices and once committed
+  int file_ = -1;
+};
+
 // For a run that writes only at its end: throws what write_whole_file would throw, where that shows by making
 // a file beside the final name. Makes missing folders.
 void check_writable(const std::filesystem::path& path);

@@ -37,4 +37,10 @@ std::string wrapped(std::string_view text, std::size_t width) {
   return lines;
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 }  // namespace plisse

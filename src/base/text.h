@@ -16,4 +16,7 @@ std::string padded(std::string text, std::size_t width);
 // Lines of at most `width` letters, broken at spaces; a longer word has its own line.
 std::string wrapped(std::string_view text, std::size_t width);
 
+// ASCII letters only: for endings of files.
+std::string lower_case(std::string text);
+
 }  // namespace plisse

@@ -86,6 +86,11 @@ SceneSettings SceneArguments::settings() const {
   return scene;
 }
 
+bool decides_geometry(const std::string& option) {
+  constexpr std::string_view of_pictures[] = {"--camera", "--output", "--size", "--samples", "--background"};
+  return std::find(std::begin(of_pictures), std::end(of_pictures), option) == std::end(of_pictures);
+}
+
 DeviceArguments::DeviceArguments(CLI::App& app) {
   app.add_option("--device", device_, "The device to draw with, as --list-devices numbers them")
       ->type_name("N");

@@ -61,6 +61,9 @@ class SceneArguments {
   std::deque<Given> given_;  // a deque: CLI11 keeps references to its elements
 };
 
+// For commands that make no picture: whether an option of render's counts there too.
+bool decides_geometry(const std::string& option);
+
 // --device and --list-devices.
 class DeviceArguments {
  public:

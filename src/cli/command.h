@@ -17,6 +17,7 @@ Command add_init(CLI::App& program);
 Command add_verify(CLI::App& program);
 Command add_size(CLI::App& program);
 Command add_paint(CLI::App& program);
+Command add_export(CLI::App& program);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

@@ -160,6 +160,14 @@ std::string frame_path(const std::string& pattern, int frame) {
   return (path.parent_path() / file).string();
 }
 
+std::string numbered_path(const std::string& pattern, int frame) {
+  const fs::path path(pattern);
+  const auto place = find_place(path.filename().string());
+  if (!place) return pattern;
+  return (path.parent_path() / fmt::format("{}{:0{}}{}", place->before, frame, place->width, place->after))
+      .string();
+}
+
 bool is_frame_pattern(const std::string& path) {
   return find_place(fs::path(path).filename().string()).has_value();
 }

@@ -26,6 +26,10 @@ std::vector<int> select_frames(const std::string& selection, int count);
 // name that ends in .png without a place for the number is that one file for every frame.
 std::string frame_path(const std::string& pattern, int frame);
 
+// The file of a frame by a pattern of any other kind ("mesh_####.ply"); a name without a place for the number
+// is that one file.
+std::string numbered_path(const std::string& pattern, int frame);
+
 // Whether the last part of the path has a place for a frame's number.
 bool is_frame_pattern(const std::string& path);
 

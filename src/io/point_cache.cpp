@@ -196,7 +196,84 @@ class PointFrames : public FrameSource {
   std::vector<glm::dmat4> matrices_;  // of each mesh: cache → world
 };
 
+void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t word, bool big_endian) {
+  for (int i = 0; i < 4; ++i)
+    bytes.push_back(static_cast<std::uint8_t>(word >> (big_endian ? 24 - 8 * i : 8 * i)));
+}
+
+// Or a PC2, which holds one step for all. Throws Error(bad_input).
+bool is_mdd(const std::filesystem::path& path, const std::vector<double>& times) {
+  const std::string ending = lower_ending(path);
+  if (ending == ".mdd") return true;
+  if (ending != ".pc2")
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: point caches are written as .pc2 or .mdd", path.string()));
+  for (std::size_t i = 2; i < times.size(); ++i) {
+    // A thousandth of a frame: what frames_per_second itself is good for.
+    if (std::abs((times[i] - times[i - 1]) - (times[1] - times[0])) > 1e-3 * (times[1] - times[0])) {
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: a PC2 has one step for all frames; choose them evenly, or write an MDD",
+                              path.string()));
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+PointCacheWriter::PointCacheWriter(const std::filesystem::path& path, std::size_t points,
+                                   std::vector<double> times)
+    : path_(path), points_(points), frames_(times.size()), big_endian_(is_mdd(path, times)), file_(path) {
+  std::vector<std::uint8_t> head;
+  const auto put = [&](std::uint32_t word) { append_word(head, word, big_endian_); };
+  const auto put_float = [&](double value) { put(std::bit_cast<std::uint32_t>(static_cast<float>(value))); };
+  const auto points_word = static_cast<std::uint32_t>(points),
+             frames_word = static_cast<std::uint32_t>(frames_);
+  if (big_endian_) {
+    put(frames_word);
+    put(points_word);
+    for (const double time : times) put_float(time);
+  } else {
+    const char name[12] = "POINTCACHE2";
+    head.insert(head.end(), name, name + 12);
+    put(1);
+    put(points_word);
+    put_float(default_frames_per_second * times.front());
+    put_float(times.size() > 1 ? default_frames_per_second * (times[1] - times[0]) : 1);
+    put(frames_word);
+  }
+  file_.append(head);
+}
+
+void PointCacheWriter::add(std::span<const glm::dvec3> positions) {
+  if (positions.size() != points_ || added_ == frames_) {
+    throw Error(ExitCode::no_output,
+                fmt::format("{}: frame {} has {} points; there are to be {} frames of {}", path_.string(),
+                            added_ + 1, positions.size(), frames_, points_));
+  }
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(12 * positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto value = static_cast<float>(positions[i][axis]);
+      if (!std::isfinite(value)) {
+        throw Error(ExitCode::no_output,
+                    fmt::format("{}: point {} of frame {} is not finite", path_.string(), i, added_ + 1));
+      }
+      append_word(bytes, std::bit_cast<std::uint32_t>(value), big_endian_);
+    }
+  }
+  file_.append(bytes);
+  ++added_;
+}
+
+void PointCacheWriter::commit() {
+  if (added_ != frames_) {
+    throw Error(ExitCode::no_output,
+                fmt::format("{}: {} of {} frames are there", path_.string(), added_, frames_));
+  }
+  file_.commit();
+}
 
 VertexCache read_point_cache(const std::filesystem::path& path, const Model& model) {
   const auto frames = std::make_shared<const PointFrames>(path, model);

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <vector>
 
+#include "base/atomic_file.h"
 #include "io/model.h"
 
 namespace plisse::io {
@@ -15,5 +18,24 @@ namespace plisse::io {
 // number of vertices; and where a mesh stands in several places. Frames a second: MDD's times; PC2's step in
 // frames of 24 a second.
 VertexCache read_point_cache(const std::filesystem::path& path, const Model& model);
+
+// Writes a cache frame by frame, MDD or PC2 by the name's ending; positions as they are given, in single
+// precision. Stands under its name from `commit` on. Errors: (bad_input) another ending, times that are not
+// evenly spaced in a PC2; (no_output) what cannot be written, a frame too many or too few, or of another
+// number of points, or a position that is not finite.
+class PointCacheWriter {
+ public:
+  // `times`: of the frames, seconds from the clip's start, rising. PC2 has them in frames of 24 a second, as
+  // read_point_cache takes them.
+  PointCacheWriter(const std::filesystem::path& path, std::size_t points, std::vector<double> times);
+  void add(std::span<const glm::dvec3> positions);
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::size_t points_, frames_, added_ = 0;
+  bool big_endian_;
+  WholeFile file_;
+};
 
 }  // namespace plisse::io

@@ -1,0 +1,102 @@
+// plisse export: the frames of a scene or a model as geometry.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app)
+      : scene(app, [](const std::string& option) { return decides_geometry(option); }),
+        device(app),
+        common(app) {
+    app.add_option(
+           "-o,--output", output,
+           described("Where to: mesh_####.ply, .obj or .glb, a file a frame; or a point cache .pc2 or "
+                     ".mdd, which moves the vertices of an OBJ of the same scene"))
+        ->type_name("PATTERN|CACHE");
+    app.add_option(
+           "--levels", levels,
+           described("Halve the mesh's edges this often; default: as often as the waves need. Allowed: "
+                     "0 … 8."))
+        ->type_name("N");
+    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
+  }
+
+  SceneArguments scene;
+  DeviceArguments device;
+  CommonArguments common;
+  std::string output, levels, shaders;
+};
+
+ordered_json to_json(const ExportReport& report) {
+  ordered_json outputs = ordered_json::array();
+  for (const auto& output : report.outputs) {
+    ordered_json entry = {{"path", output.path}, {"kind", output.kind}};
+    if (output.frame > 0) entry["frame"] = output.frame;
+    outputs.push_back(entry);
+  }
+  return {{"outputs", outputs},
+          {"levels", report.levels},
+          {"positions", report.positions},
+          {"triangles", report.triangles},
+          {"units_m", 1},
+          {"up", "y"},
+          {"interrupted", report.interrupted},
+          {"wall_s", report.wall_s}};
+}
+
+int run_export(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.device.list_wanted()) {
+    arguments.device.list();
+    return 0;
+  }
+  ExportRequest request;
+  request.scene = arguments.scene.settings();
+  request.output = arguments.output;
+  if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
+  request.device = arguments.device.device();
+  request.shader_folder = arguments.shaders;
+  install_interrupt_handlers();
+  ExportReport report;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    report = export_geometry(request, frame_progress(progress));
+  }
+  log::notice(fmt::format("{} file{} in {:.2f} s: {} vertices, {} triangles, edges halved {} times → {}",
+                          report.outputs.size(), report.outputs.size() == 1 ? "" : "s", report.wall_s,
+                          report.positions, report.triangles, report.levels, request.output));
+  write_report(to_json(report), arguments.common.json());
+  if (report.interrupted) return 128 + signal_number();
+  return 0;
+}
+
+}  // namespace
+
+Command add_export(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("export", "Write the wrinkled frames as meshes or as a point cache");
+  app->footer(
+      "\nplisse export scene.toml --frames 1-48 -o mesh_####.glb\n"
+      "plisse export scene.toml --frames 1 -o sleeve.obj && plisse export scene.toml -o sleeve.pc2\n"
+      "Metres, y up. With --strength 0 the posed model without its wrinkles.");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_export(*arguments); }};
+}
+
+}  // namespace plisse::cli
