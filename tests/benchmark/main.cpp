@@ -31,7 +31,7 @@ struct Section {
 constexpr Section sections[] = {{"passes", measure_passes},   {"shading", measure_shading},
                                 {"plain", measure_plain_cpp}, {"png", measure_png},
                                 {"frames", measure_frames},   {"paper", measure_paper},
-                                {"sizing", measure_sizing}};
+                                {"sizing", measure_sizing},   {"import", measure_import}};
 
 // The first line that a shell command prints.
 std::string output_of(const std::string& command) {

@@ -13,11 +13,10 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "config/scene_file.h"
-#include "io/import_ply.h"
 #include "io/read_model.h"
 #include "support/files.h"
 #include "support/mutants.h"
+#include "support/readers.h"
 
 namespace plisse::io {
 namespace {
@@ -34,14 +33,15 @@ class Mutants : public testing::Test {
     EXPECT_LT(usage.ru_maxrss, 1 << 20) << "KiB";
   }
 
-  // Reads a damaged file with its reader; only an Error may come of it.
-  template <typename Read>
-  void survive(const std::string& original, int count, const Read& read) const {
+  // The file is read as it is, and then damaged in `count` ways; only an Error may come of those.
+  using Reader = void (*)(std::string_view bytes, const std::filesystem::path& folder);
+  void survive(const std::string& original, int count, Reader read) const {
+    ASSERT_NO_THROW(read(original, folder_.path())) << "the file is to be sound before it is damaged";
     int refused = 0;
     for (int seed = 0; seed < count; ++seed) {
       const auto start = std::chrono::steady_clock::now();
       try {
-        read(mutant_of(original, static_cast<std::uint32_t>(seed)));
+        read(mutant_of(original, static_cast<std::uint32_t>(seed)), folder_.path());
       } catch (const Error&) {
         ++refused;
       } catch (const std::exception& error) {
@@ -52,51 +52,64 @@ class Mutants : public testing::Test {
     EXPECT_GT(refused, count / 10) << "the damage is too small to test anything";
   }
 
-  void survive_as_file(const std::string& name, const std::string& original, int count) const {
-    const auto path = folder_ / name;
-    survive(original, count, [&](const std::string& text) {
-      test::write_text(path, text);
-      validate(read_model(path, {}));
-    });
-  }
-
   test::TemporaryFolder folder_;
 };
 
-const std::string obj =
-    "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0.5\nv 0 1 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\no sheet\nusemtl "
-    "cloth\n"
-    "f 1/1/1 2/2/1 3/3/1 4/1/1\ng more\nf -4 -3 -2\nf 1//1 3//1 4//1\n";
-
 TEST_F(Mutants, Obj) {
   test::write_text(folder_ / "m.mtl", "newmtl cloth\nKd 1 0 0\nmap_Kd t.png\n");
-  survive_as_file("m.obj", obj, 400);
+  survive(
+      "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0.5\nv 0 1 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\no sheet\n"
+      "usemtl cloth\nf 1/1/1 2/2/1 3/3/1 4/1/1\ng more\nf -4 -3 -2\nf 1//1 3//1 4//1\n",
+      400, test::read_as_model);
+}
+
+template <typename Number>
+void append(std::string& bytes, std::initializer_list<Number> numbers) {
+  for (const Number number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
 TEST_F(Mutants, Ply) {
   const std::string header =
       " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n";
-  const auto parse = [](const std::string& text) {
-    parse_ply({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, "m.ply");
-  };
-  survive("ply\nformat ascii" + header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 400, parse);
+  survive("ply\nformat ascii" + header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 400, test::read_as_model);
   std::string binary = "ply\nformat binary_little_endian" + header;
-  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  const std::int32_t ids[3] = {0, 1, 2};
-  binary.append(reinterpret_cast<const char*>(corners), sizeof corners).append(1, '\3');
-  binary.append(reinterpret_cast<const char*>(ids), sizeof ids);
-  survive(binary, 400, parse);
+  append<float>(binary, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  append<std::uint8_t>(binary, {3});
+  append<std::int32_t>(binary, {0, 1, 2});
+  survive(binary, 400, test::read_as_model);
 }
 
 TEST_F(Mutants, Gltf) {
-  survive_as_file("m.glb", test::read_text(test::asset("square.glb")), 400);
+  survive(test::read_text(test::asset("square.glb")), 400, test::read_as_model);
+}
+
+TEST_F(Mutants, PointCaches) {
+  std::string pc2("POINTCACHE2\0", 12);
+  append<std::int32_t>(pc2, {1, 3});  // version, vertices
+  append<float>(pc2, {0, 1});         // first frame, frames a sample
+  append<std::int32_t>(pc2, {2});
+  for (int f = 0; f < 2; ++f) append<float>(pc2, {0, 0, 0, 1, 0, 0, 0, 1, 0.5});
+  survive(pc2, 200, test::read_as_point_cache);
+  std::string mdd;
+  append<std::uint32_t>(mdd,
+                        {0x01000000, 0x03000000, 0});  // one frame, three vertices, at time 0: big-endian
+  append<float>(mdd, {0, 0, 0, 0, 0, 0, 0, 0, 0});
+  survive(mdd, 200, test::read_as_point_cache);
 }
 
 TEST_F(Mutants, Scenes) {
   test::write_text(folder_ / "sleeve.glb", "not read here");
-  survive(test::read_text(test::asset("sleeve.toml")), 400,
-          [&](const std::string& text) { parse_scene(text, folder_ / "m.toml"); });
+  survive(test::read_text(test::asset("sleeve.toml")), 400, test::read_as_scene);
+}
+
+TEST_F(Mutants, Fields) {
+  survive(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "property double amplitude\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property list uchar double phase\nend_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2 3 0 1 2\n",
+      400, test::read_as_field);
+  survive("0.1\n0.1\n0\n0.2\n#\n0\n1\n2\n3\n#\n1\n2\n3\n1\n1\n", 400, test::read_as_field);
 }
 
 const std::string x_file =
