@@ -91,8 +91,8 @@ bool only_looks(const std::string& extension) {
          extension.starts_with("KHR_xmp") || extension == "FB_ngon_encoding";
 }
 bool is_known(const std::string& extension) {
-  static constexpr std::array<std::string_view, 4> known{"KHR_mesh_quantization", "KHR_texture_transform",
-                                                         "EXT_meshopt_compression",
+  static constexpr std::array<std::string_view, 5> known{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
+                                                         "KHR_texture_transform", "EXT_meshopt_compression",
                                                          "KHR_draco_mesh_compression"};
   return std::find(known.begin(), known.end(), extension) != known.end() || only_looks(extension);
 }

@@ -1,4 +1,5 @@
-// glTF nodes: the scene's tree, and the meshes, skins and cameras that hang in it (glTF 2.0, 3.5).
+// glTF nodes: the scene's tree, and the meshes, skins and cameras that hang in it (glTF 2.0, 3.5;
+// EXT_mesh_gpu_instancing).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,10 +7,19 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "base/log.h"
 #include "io/import_gltf_parts.h"
 
 namespace plisse::io {
 namespace {
+
+glm::dmat4 placed(const double* t, const double* q, const double* s, const GltfValue& rotation_at) {
+  const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+  if (!(glm::length(rotation) > 0)) rotation_at.fail("is zero");
+  return glm::scale(
+      glm::translate(glm::dmat4{1}, glm::dvec3(t[0], t[1], t[2])) * glm::mat4_cast(glm::normalize(rotation)),
+      glm::dvec3(s[0], s[1], s[2]));
+}
 
 glm::dmat4 local_of(const GltfValue& node) {
   if (node["matrix"]) {
@@ -22,11 +32,7 @@ glm::dmat4 local_of(const GltfValue& node) {
   const std::vector<double> t = node["translation"].numbers(3, {0, 0, 0});
   const std::vector<double> q = node["rotation"].numbers(4, {0, 0, 0, 1});
   const std::vector<double> s = node["scale"].numbers(3, {1, 1, 1});
-  const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-  if (!(glm::length(rotation) > 0)) node["rotation"].fail("is zero");
-  return glm::scale(
-      glm::translate(glm::dmat4{1}, glm::dvec3(t[0], t[1], t[2])) * glm::mat4_cast(glm::normalize(rotation)),
-      glm::dvec3(s[0], s[1], s[2]));
+  return placed(t.data(), q.data(), s.data(), node["rotation"]);
 }
 
 class NodeReader {
@@ -125,6 +131,40 @@ class NodeReader {
         source["weights"] ? source["weights"] : file_.list("meshes").at(mesh)["weights"];
     if (weights) node.morph_weights = weights.numbers(weights.size(), {});
     node.morph_weights.resize(targets, 0);
+    const GltfValue instancing = source["extensions"]["EXT_mesh_gpu_instancing"];
+    if (instancing && skin < 0)  // a skin's place is its bones', so there is nothing to repeat
+      add_instances(ids_[n], instancing["attributes"]);
+  }
+
+  // The node's meshes stand at every instance instead of at the node: a child for each.
+  void add_instances(int parent, const GltfValue& attributes) {
+    std::size_t count = 0;
+    const auto read = [&](const char* name, std::string_view type) {
+      GltfArray array;
+      if (const GltfValue at = attributes[name]) {
+        array = read_gltf_accessor(file_, at, {type});
+        if (count > 0 && array.count != count)
+          at.fail(fmt::format("has {} elements; the other attributes have {}", array.count, count));
+        count = array.count;
+      }
+      return array;
+    };
+    const GltfArray t = read("TRANSLATION", "VEC3"), q = read("ROTATION", "VEC4"), s = read("SCALE", "VEC3");
+    constexpr double origin[3] = {0, 0, 0}, unturned[4] = {0, 0, 0, 1}, unscaled[3] = {1, 1, 1};
+    file_.spend(count * sizeof(Node), attributes);
+    const Node holder = model_.nodes[static_cast<std::size_t>(parent)];
+    if (!holder.morph_weights.empty())
+      log::warn_once("instances " + holder.name,
+                     fmt::format("{}: the instances of node '{}' keep the morph weights that it starts with",
+                                 file_.path().string(), holder.name));
+    for (std::size_t i = 0; i < count; ++i) {
+      Node& instance = model_.nodes.emplace_back(holder);
+      instance.name = fmt::format("{} ({})", holder.name, i);
+      instance.parent = parent;
+      instance.local = placed(t.count > 0 ? t[i] : origin, q.count > 0 ? q[i] : unturned,
+                              s.count > 0 ? s[i] : unscaled, attributes["ROTATION"]);
+    }
+    model_.nodes[static_cast<std::size_t>(parent)].meshes.clear();
   }
 
   // In the order of the file's cameras; one that several nodes hold is there for each.

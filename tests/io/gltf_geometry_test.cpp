@@ -15,6 +15,7 @@
 
 #include "io/import.h"
 #include "scene/animation.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/gltf_file.h"
 
@@ -176,6 +177,28 @@ TEST_F(GltfGeometry, OneMeshOnTwoSkeletonsAndAsARigidPart) {
     };
     EXPECT_GT(glm::cross(at(1) - at(0), at(2) - at(0)).z, 0) << part.mesh;
   }
+}
+
+TEST_F(GltfGeometry, InstancesOfOneNode) {
+  const int position = buffer_.array<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int moves = buffer_.array<float>("VEC3", {0, 0, 0, 0, 0, 7});
+  // A quarter turn about z, in normalised bytes; the second twice as large.
+  const int turns = buffer_.array<std::int8_t>("VEC4", {0, 0, 0, 127, 0, 0, 90, 90}, R"(,"normalized":true)");
+  const int scales = buffer_.array<float>("VEC3", {1, 1, 1, 2, 2, 2});
+  const auto file = [&](int scale) {
+    return fmt::format(
+        R"("extensionsRequired":["EXT_mesh_gpu_instancing"],"nodes":[{{"mesh":0,"translation":[0,100,0],"extensions":
+{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":{},"ROTATION":{},"SCALE":{}}}}}}}}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":{}}}}}]}}])",
+        moves, turns, scale, position);
+  };
+  Animation animation(import(file(scales)), {});
+  const Points points = posed(animation.surface(), animation.pose(1));
+  ASSERT_EQ(points.size(), 6U);  // and none at the node itself
+  const Points expected{{0, 100, 0}, {1, 100, 0}, {0, 101, 0}, {0, 100, 7}, {0, 102, 7}, {-2, 100, 7}};
+  for (std::size_t v = 0; v < 6; ++v) EXPECT_LT(glm::distance(points[v], expected[v]), 1e-12) << v;
+  EXPECT_THAT(test::error_of([&] { import(file(position)); }),
+              testing::HasSubstr("SCALE: has 3 elements; the other"));
 }
 
 TEST_F(GltfGeometry, UvSetsAndTheirTransforms) {
