@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,12 +59,12 @@ ordered_json to_json(const glm::dvec3& v) {
 ordered_json welded_vertices(const Surface& surface, const io::Mesh& mesh) {
   for (const Part& part : surface.parts) {
     if (part.mesh != mesh.name || part.triangle_count != mesh.triangles.size() / 3) continue;
-    std::set<std::uint32_t> ids;
+    std::vector<bool> has(surface.vertex_count(), false);
     for (std::size_t i = 0; i < 3 * std::size_t{part.triangle_count}; ++i) {
       const std::uint32_t vertex = surface.triangles[3 * std::size_t{part.first_triangle} + i];
-      ids.insert(surface.render_vertices[vertex].welded);
+      has[surface.render_vertices[vertex].welded] = true;
     }
-    return ids.size();
+    return std::count(has.begin(), has.end(), true);
   }
   return nullptr;
 }

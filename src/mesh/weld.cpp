@@ -1,9 +1,11 @@
 // Welding over a hash grid whose cells are a few tolerances wide, so that nearly every vertex looks into one
-// cell.
+// cell. Cells are not kept apart by more than their hash: `same` looks at the places themselves.
 #include "mesh/weld.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <unordered_map>
+#include <utility>
 
 namespace plisse {
 namespace {
@@ -29,19 +31,29 @@ bool same_influences(const PaletteInfluences& a, const PaletteInfluences& b) {
   return true;
 }
 
-struct Cell {
-  std::int64_t x, y, z;
-  bool operator==(const Cell&) const = default;
-};
+constexpr std::uint32_t none = 0xFFFFFFFF;
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    // Large odd multipliers (Teschner et al. 2003, "Optimized Spatial Hashing") in 64 bits.
-    const auto mix = static_cast<std::uint64_t>(cell.x) * 0x9E3779B97F4A7C15ULL ^
-                     static_cast<std::uint64_t>(cell.y) * 0xC2B2AE3D27D4EB4FULL ^
-                     static_cast<std::uint64_t>(cell.z) * 0x165667B19E3779F9ULL;
-    return static_cast<std::size_t>(mix ^ (mix >> 29));
+// Lists of welded ids by cell: the newest of each bucket, and each one's elder.
+class Grid {
+ public:
+  explicit Grid(std::size_t count) : newest_(std::bit_ceil(std::max<std::size_t>(count, 1)), none) {
+    elder_.reserve(count);
   }
+  std::uint32_t newest(const glm::dvec3& cell) const { return newest_[bucket(cell)]; }
+  std::uint32_t elder(std::uint32_t id) const { return elder_[id]; }
+  void add_next_id(const glm::dvec3& cell) {
+    elder_.push_back(std::exchange(newest_[bucket(cell)], static_cast<std::uint32_t>(elder_.size())));
+  }
+
+ private:
+  std::size_t bucket(const glm::dvec3& cell) const {
+    // Large odd multipliers (Teschner et al. 2003, "Optimized Spatial Hashing") in 64 bits.
+    const auto mix = static_cast<std::uint64_t>(std::llround(cell.x)) * 0x9E3779B97F4A7C15ULL ^
+                     static_cast<std::uint64_t>(std::llround(cell.y)) * 0xC2B2AE3D27D4EB4FULL ^
+                     static_cast<std::uint64_t>(std::llround(cell.z)) * 0x165667B19E3779F9ULL;
+    return static_cast<std::size_t>(mix ^ (mix >> 29)) & (newest_.size() - 1);
+  }
+  std::vector<std::uint32_t> newest_, elder_;
 };
 
 }  // namespace
@@ -75,7 +87,7 @@ Weld weld(const WeldInput& input, double tolerance,
 
   Weld result;
   result.welded.resize(count);
-  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> grid;  // welded ids
+  Grid grid(count);
   for (std::size_t v = 0; v < count; ++v) {
     const glm::dvec3 place = (input.positions[v] - origin) / cell_size;
     const glm::dvec3 reach{tolerance / cell_size};
@@ -84,16 +96,12 @@ Weld weld(const WeldInput& input, double tolerance,
     std::uint32_t found = static_cast<std::uint32_t>(result.representative.size());
     for (double x = low.x; x <= high.x; ++x)
       for (double y = low.y; y <= high.y; ++y)
-        for (double z = low.z; z <= high.z; ++z) {
-          const auto cell = grid.find(Cell{std::llround(x), std::llround(y), std::llround(z)});
-          if (cell == grid.end()) continue;
+        for (double z = low.z; z <= high.z; ++z)
           // The smallest id wins, whichever cell it stands in.
-          for (const std::uint32_t id : cell->second)
+          for (std::uint32_t id = grid.newest({x, y, z}); id != none; id = grid.elder(id))
             if (id < found && same(result.representative[id], v)) found = id;
-        }
     if (found == result.representative.size()) {
-      const glm::dvec3 home = glm::floor(place);
-      grid[Cell{std::llround(home.x), std::llround(home.y), std::llround(home.z)}].push_back(found);
+      grid.add_next_id(glm::floor(place));
       result.representative.push_back(static_cast<std::uint32_t>(v));
     }
     result.welded[v] = found;

@@ -79,7 +79,7 @@ Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames
   return timeline;
 }
 
-// Render vertices that share everything are one: (welded, uvs, file normal, colour), by bits.
+// Render vertices of one welded vertex that share everything are one: uvs, file normal, colour, by bits.
 struct RenderKey {
   std::array<std::uint64_t, 8> bits{};
   bool operator==(const RenderKey&) const = default;
@@ -92,6 +92,18 @@ struct RenderKeyHash {
     return static_cast<std::size_t>(hash);
   }
 };
+
+RenderKey render_key(const Instances& from, std::uint32_t v, std::uint32_t welded) {
+  const auto two = [](float a, float b) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+  };
+  const glm::dvec3 n = from.normals[v];
+  const glm::vec2 uv = from.uvs[v], normal_uv = from.normal_uvs[v];
+  const glm::vec4 colour = from.colours[v];
+  return {{welded, two(uv.x, uv.y), std::bit_cast<std::uint64_t>(n.x), std::bit_cast<std::uint64_t>(n.y),
+           std::bit_cast<std::uint64_t>(n.z), two(normal_uv.x, normal_uv.y), two(colour.r, colour.g),
+           two(colour.b, colour.a)}};
+}
 
 // Surface with everything but `rest` (which is set to `bind`); `normals` gets each render vertex's file
 // normal in the space of bind, 0 where there is none.
@@ -111,26 +123,24 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
     for (const std::uint32_t v : weld.representative)
       surface.target_deltas.push_back(from.vertices.target_deltas[t * from.vertices.positions.size() + v]);
 
+  // What a vertex of the file has become is remembered for its other corners.
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  std::vector<std::uint32_t> become(from.vertices.positions.size(), none);
   std::unordered_map<RenderKey, std::uint32_t, RenderKeyHash> known;
+  known.reserve(become.size());
   surface.triangles.reserve(from.triangles.size());
   for (const std::uint32_t v : from.triangles) {
-    const glm::dvec3 n = from.normals[v];
-    const glm::vec2 uv = from.uvs[v];
-    const glm::vec2 normal_uv = from.normal_uvs[v];
-    const glm::vec4 colour = from.colours[v];
-    const auto two = [](float a, float b) {
-      return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
-    };
-    const RenderKey key{{weld.welded[v], two(uv.x, uv.y), std::bit_cast<std::uint64_t>(n.x),
-                         std::bit_cast<std::uint64_t>(n.y), std::bit_cast<std::uint64_t>(n.z),
-                         two(normal_uv.x, normal_uv.y), two(colour.r, colour.g), two(colour.b, colour.a)}};
-    const auto [entry, fresh] =
-        known.try_emplace(key, static_cast<std::uint32_t>(surface.render_vertices.size()));
-    if (fresh) {
-      surface.render_vertices.push_back({weld.welded[v], uv, {0, 1, 0}, normal_uv, colour});
-      normals.push_back(n);
+    if (become[v] == none) {
+      const std::uint32_t id = weld.welded[v];
+      const auto [entry, fresh] = known.try_emplace(
+          render_key(from, v, id), static_cast<std::uint32_t>(surface.render_vertices.size()));
+      if (fresh) {
+        surface.render_vertices.push_back({id, from.uvs[v], {0, 1, 0}, from.normal_uvs[v], from.colours[v]});
+        normals.push_back(from.normals[v]);
+      }
+      become[v] = entry->second;
     }
-    surface.triangles.push_back(entry->second);
+    surface.triangles.push_back(become[v]);
   }
   surface.parts = from.parts;
   build_adjacency(surface);

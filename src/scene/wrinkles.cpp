@@ -22,15 +22,19 @@
 namespace plisse {
 namespace {
 
-std::set<std::uint32_t> vertices_of(const Surface& surface, bool wrinkling) {
-  std::set<std::uint32_t> ids;
+// In ascending order.
+std::vector<std::uint32_t> vertices_of(const Surface& surface, bool wrinkling) {
+  std::vector<bool> has(surface.vertex_count(), false);
   for (const Part& part : surface.parts) {
     if (part.wrinkles != wrinkling) continue;
     for (std::size_t i = 3 * std::size_t{part.first_triangle};
          i < 3 * std::size_t{part.first_triangle + part.triangle_count}; ++i) {
-      ids.insert(surface.render_vertices[surface.triangles[i]].welded);
+      has[surface.render_vertices[surface.triangles[i]].welded] = true;
     }
   }
+  std::vector<std::uint32_t> ids;
+  for (std::size_t v = 0; v < has.size(); ++v)
+    if (has[v]) ids.push_back(static_cast<std::uint32_t>(v));
   return ids;
 }
 
