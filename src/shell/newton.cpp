@@ -1,0 +1,220 @@
+#include "shell/newton.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace plisse::shell {
+namespace {
+
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// LDLᵀ in the order the potential numbers its unknowns in; the symbolic part once.
+using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+class Search {
+ public:
+  Search(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start,
+         const NewtonSettings& settings, const NewtonProgress& progress)
+      : settings_(settings), progress_(progress), potential_(shell, conditions, loads) {
+    result_.positions = start;
+    for (Eigen::Index v = 0; v < start.cols(); ++v)
+      for (int axis = 0; axis < 3; ++axis)
+        if (conditions.held(axis, v)) result_.positions(axis, v) = conditions.at(axis, v);
+    // Strains of rounding (1e-16) are forces too; they must not keep a shell at rest from being at rest.
+    double length = 0;
+    for (const RestFace& face : shell.rest) length = std::max(length, std::sqrt(2 * face.area));
+    rounding_force_ = 1e-15 * shell.material.young * shell.material.thickness * length;
+    extent_ = (start.rowwise().maxCoeff() - start.rowwise().minCoeff()).norm();
+    for (Eigen::Index v = 0; v < start.cols(); ++v)
+      for (std::size_t o = 0; o < loads.obstacles.size(); ++o)
+        if (!conditions.held.col(v).all() &&
+            distance(loads.obstacles[o], result_.positions.col(v)).value <= 0)
+          throw Error(ExitCode::bad_input,
+                      fmt::format("vertex {} starts inside obstacle {}: begin farther off", v, o));
+  }
+
+  Equilibrium run() {
+    VectorXd gradient;
+    Potential::Value value = measure(result_.positions, &gradient);
+    if (!std::isfinite(value.energy) || !gradient.allFinite())
+      throw Error(ExitCode::bad_input,
+                  "the start has no finite energy: positions are too large or too close to an obstacle");
+    note(0, value, gradient, 0, 0);
+    while (!finished(value, gradient)) {
+      const VectorXd direction = newton_direction(gradient);
+      if (direction.size() == 0) {
+        result_.reason = "the Hessian could not be factorised";
+        break;
+      }
+      const auto began = Clock::now();
+      const double step = line_search(value, gradient, direction);
+      result_.line_search_s += since(began);
+      if (step == 0) {
+        if (stalled(value, gradient)) break;
+        continue;
+      }
+      shift_ = step > 0.5   ? (shift_ > 4 * least_shift_ ? 0.1 * shift_ : 0)
+               : step < 0.1 ? std::max(4 * shift_, least_shift_)
+                            : shift_;
+      exact_ = step > 0.5;
+      ++result_.iterations;
+      note(result_.iterations, value, gradient, step, shift_);
+      if (progress_ && !progress_(result_.trace.back(), result_.positions)) {
+        result_.reason = "it was interrupted";
+        break;
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  Potential::Value measure(const Positions& x, VectorXd* gradient) { return potential_.value(x, gradient); }
+
+  double allowed(const Potential::Value& value) const {
+    return std::max(settings_.tolerance * value.force_scale, rounding_force_);
+  }
+
+  void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
+            double shift) {
+    result_.energy = value.energy;
+    result_.force_scale = value.force_scale;
+    result_.gradient_inf = gradient.size() > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
+    result_.trace.push_back({iteration, since(began_), value.energy, result_.gradient_inf, step, shift});
+  }
+
+  bool finished(const Potential::Value& value, const VectorXd& gradient) {
+    const double largest = gradient.size() > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
+    if (largest <= allowed(value)) {
+      result_.converged = true;
+      result_.reason = fmt::format("forces balance to {:.1e} of those that meet",
+                                   value.force_scale > 0 ? largest / value.force_scale : 0.0);
+      return true;
+    }
+    if (result_.iterations >= settings_.max_iterations) {
+      result_.reason = fmt::format("the limit of {} iterations was reached", settings_.max_iterations);
+      return true;
+    }
+    if (settings_.max_seconds > 0 && since(began_) > settings_.max_seconds) {
+      result_.reason = fmt::format("the limit of {} seconds was reached", settings_.max_seconds);
+      return true;
+    }
+    return false;
+  }
+
+  // −(H + shift)⁻¹ g, with the shift raised and the concave parts left out until that leads downhill.
+  VectorXd newton_direction(const VectorXd& gradient) {
+    for (int attempt = 0; attempt < 40; ++attempt) {
+      auto began = Clock::now();
+      system_ = potential_.hessian(result_.positions, exact_ ? Curvature::exact : Curvature::positive);
+      const VectorXd diagonal = system_.diagonal();
+      const double size = (diagonal.array() / potential_.areas().array().max(1e-300)).maxCoeff();
+      least_shift_ = 1e-12 * size;
+      if (shift_ > 0) system_.diagonal() += shift_ * potential_.areas();
+      result_.assembly_s += since(began);
+      began = Clock::now();
+      if (!analysed_) {
+        factor_.analyzePattern(system_);
+        analysed_ = true;
+        result_.analysis_s = since(began);
+        began = Clock::now();
+      }
+      factor_.factorize(system_);
+      result_.factor_s += since(began);
+      if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0) {
+        result_.factor_nonzeros = static_cast<std::size_t>(factor_.matrixL().nestedExpression().nonZeros());
+        VectorXd direction = -factor_.solve(gradient);
+        if (direction.allFinite() && gradient.dot(direction) < 0) return direction;
+      }
+      if (exact_) {
+        exact_ = false;
+      } else {
+        shift_ = std::max(10 * shift_, least_shift_);
+      }
+    }
+    return {};
+  }
+
+  // Halves the step until the energy falls enough; takes the new state. 0: no step does.
+  double line_search(Potential::Value& value, VectorXd& gradient, const VectorXd& direction) {
+    const double slope = gradient.dot(direction);
+    double step = potential_.safe_step(result_.positions, direction);
+    // No vertex goes farther than half of the whole at once: what is slack has no idea of scale.
+    const double longest = direction.cwiseAbs().maxCoeff();
+    if (step * longest > 0.5 * extent_) step = 0.5 * extent_ / longest;
+    const double rounding = 1e-15 * value.terms;
+    Positions x;
+    VectorXd new_gradient;
+    for (int halving = 0; halving < 60; ++halving, step *= 0.5) {
+      x = result_.positions;
+      potential_.advance(x, direction, step);
+      const Potential::Value there = measure(x, &new_gradient);
+      if (!std::isfinite(there.energy) || !new_gradient.allFinite()) continue;
+      const bool falls = there.energy <= value.energy + 1e-4 * step * slope;
+      // Where the expected fall is lost in rounding the forces decide.
+      const bool balances = -step * slope <= 10 * rounding && there.energy <= value.energy + rounding &&
+                            new_gradient.norm() < 0.9 * gradient.norm();
+      if (!falls && !balances) {
+        if (-step * slope < 1e-3 * rounding) break;
+        continue;
+      }
+      if (there.energy > value.energy - rounding && new_gradient.norm() >= gradient.norm())
+        break;  // going nowhere
+      result_.positions = std::move(x);
+      value = there;
+      gradient = std::move(new_gradient);
+      return step;
+    }
+    return 0;
+  }
+
+  // No step down the Newton direction: once more with concave parts left out, then with shifts; then give up.
+  bool stalled(const Potential::Value& value, const VectorXd& gradient) {
+    if (exact_) {
+      exact_ = false;
+      return false;
+    }
+    if (++stalls_ < 4) {
+      shift_ = std::max(100 * shift_, 1e3 * least_shift_);
+      return false;
+    }
+    const double share = value.force_scale > 0 ? gradient.cwiseAbs().maxCoeff() / value.force_scale : 0;
+    // What rounding of positions leaves of forces that cancel.
+    result_.converged = share <= std::max(1e-6, settings_.tolerance);
+    result_.reason = fmt::format(
+        "double precision leaves nothing to gain; forces balance to {:.1e} of those that meet", share);
+    return true;
+  }
+
+  NewtonSettings settings_;
+  const NewtonProgress& progress_;
+  Potential potential_;
+  Equilibrium result_;
+  Factor factor_;
+  Eigen::SparseMatrix<double> system_;
+  Clock::time_point began_ = Clock::now();
+  double rounding_force_ = 0, extent_ = 0, shift_ = 0, least_shift_ = 0;
+  bool exact_ = false, analysed_ = false;
+  int stalls_ = 0;
+};
+
+}  // namespace
+
+Equilibrium find_equilibrium(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                             const Positions& start, const NewtonSettings& settings,
+                             const NewtonProgress& progress) {
+  check(shell, conditions, loads, start);
+  return Search(shell, conditions, loads, start, settings, progress).run();
+}
+
+}  // namespace plisse::shell

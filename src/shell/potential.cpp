@@ -1,0 +1,368 @@
+#include "shell/potential.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/OrderingMethods>
+#include <algorithm>
+#include <cmath>
+
+#include "shell/bending_midedge.h"
+#include "shell/bending_quadratic.h"
+
+namespace plisse::shell {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Flap {
+  Corners across = Corners::Zero();
+  std::array<bool, 3> has{};
+};
+
+Flap flap_of(const Topology& topology, std::size_t face, const Positions& x) {
+  Flap flap;
+  for (std::size_t i = 0; i < 3; ++i) {
+    flap.has[i] = topology.flaps[face][i] != none;
+    if (flap.has[i]) flap.across.col(static_cast<int>(i)) = x.col(topology.flaps[face][i]);
+  }
+  return flap;
+}
+
+// Corners, then the vertices across; where there is none, the corner itself: its rows are 0.
+std::array<std::uint32_t, 6> stencil(const Topology& topology, std::size_t face) {
+  std::array<std::uint32_t, 6> vertices{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    vertices[i] = topology.faces[face][i];
+    vertices[3 + i] = topology.flaps[face][i] != none ? topology.flaps[face][i] : topology.faces[face][i];
+  }
+  return vertices;
+}
+
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d m;
+  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return m;
+}
+
+// What a barrier must be able to carry: the pressures of the loads and of the sheet's own weight.
+double contact_stiffness(const Shell& shell, const Loads& loads) {
+  if (loads.contact_stiffness > 0) return loads.contact_stiffness;
+  double area = 0, force = 0;
+  for (const RestFace& face : shell.rest) area += face.area;
+  for (Eigen::Index v = 0; v < loads.forces.cols(); ++v) force += loads.forces.col(v).norm();
+  const Material& m = shell.material;
+  const double pressure = std::abs(loads.pressure) + m.density * m.thickness * loads.gravity.norm() +
+                          force / area + m.young * m.thickness * 1e-6 / std::sqrt(area);
+  // |b'| is about 1.2 gap at half of the gap: there it carries some ten times what the loads ask for on
+  // average.
+  return 10 * pressure / (1.2 * loads.gap);
+}
+
+}  // namespace
+
+Potential::Potential(const Shell& shell, const Conditions& conditions, const Loads& loads)
+    : shell_(shell),
+      loads_(loads),
+      law_{shell.material, shell.stretching, shell.residual},
+      vertex_areas_(vertex_areas(shell.topology, shell.rest)),
+      contact_(contact_stiffness(shell, loads)) {
+  if (shell.bending == Bending::quadratic)
+    quadratic_ = bending_quadratic(shell.material, shell.topology, shell.rest);
+  number_unknowns(conditions);
+  build_pattern();
+}
+
+void Potential::number_unknowns(const Conditions& conditions) {
+  const Topology& topology = shell_.topology;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const auto vertices = stencil(topology, f);
+    const std::size_t count = shell_.bending == Bending::midedge ? 6 : 3;
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t l = 0; l < count; ++l)
+        entries.emplace_back(static_cast<int>(vertices[k]), static_cast<int>(vertices[l]), 1.0);
+  }
+  const auto vertex_count = static_cast<Eigen::Index>(topology.vertex_count);
+  Eigen::SparseMatrix<double> graph(vertex_count, vertex_count);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  if (quadratic_.size() > 0) graph += quadratic_;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;  // new place → vertex
+  Eigen::AMDOrdering<int>()(graph, order);
+  place_.resize(topology.vertex_count);
+  unknown_.assign(topology.vertex_count, {-1, -1, -1});
+  for (std::uint32_t place = 0; place < topology.vertex_count; ++place) {
+    const auto v = static_cast<std::uint32_t>(order.indices()[place]);
+    place_[v] = place;
+    if (topology.component[v] == none) continue;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      if (conditions.held(axis, v)) continue;
+      unknown_[v][axis] = static_cast<std::int32_t>(scalar_.size());
+      scalar_.push_back(3 * v + axis);
+    }
+  }
+  unknown_areas_.resize(unknowns());
+  for (std::size_t i = 0; i < scalar_.size(); ++i)
+    unknown_areas_[static_cast<Eigen::Index>(i)] = vertex_areas_[scalar_[i] / 3];
+}
+
+void Potential::build_pattern() {
+  const Topology& topology = shell_.topology;
+  const bool flaps = shell_.bending == Bending::midedge;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // (column, row), places
+  const auto want = [&](std::uint32_t a, std::uint32_t b) {
+    pairs.emplace_back(std::min(place_[a], place_[b]), std::max(place_[a], place_[b]));
+  };
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const auto vertices = stencil(topology, f);
+    for (std::size_t k = 0; k < (flaps ? 6u : 3u); ++k)
+      for (std::size_t l = 0; l <= k; ++l) want(vertices[k], vertices[l]);
+  }
+  for (int column = 0; column < quadratic_.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(quadratic_, column); it; ++it)
+      if (it.row() >= column) want(static_cast<std::uint32_t>(it.row()), static_cast<std::uint32_t>(column));
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+
+  std::vector<std::uint32_t> vertex_at(topology.vertex_count);
+  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) vertex_at[place_[v]] = v;
+  first_block_.assign(topology.vertex_count + 1, 0);
+  blocks_.resize(pairs.size());
+  for (std::size_t b = 0; b < pairs.size(); ++b) {
+    blocks_[b] = {pairs[b].second, pairs[b].first, {-1, -1, -1, -1, -1, -1, -1, -1, -1}};
+    ++first_block_[pairs[b].first + 1];
+  }
+  for (std::size_t c = 0; c < topology.vertex_count; ++c) first_block_[c + 1] += first_block_[c];
+
+  std::vector<int> outer(scalar_.size() + 1, 0), inner;
+  std::int32_t slot = 0;
+  std::size_t column_unknown = 0;
+  for (std::uint32_t column = 0; column < topology.vertex_count; ++column)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (unknown_[vertex_at[column]][c] < 0) continue;
+      for (std::uint32_t b = first_block_[column]; b < first_block_[column + 1]; ++b)
+        for (std::size_t r = 0; r < 3; ++r) {
+          const std::int32_t row = unknown_[vertex_at[blocks_[b].row]][r];
+          if (row < unknown_[vertex_at[column]][c]) continue;  // held, or in the upper half
+          blocks_[b].slot[3 * r + c] = slot++;
+          inner.push_back(row);
+        }
+      outer[++column_unknown] = slot;
+    }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slot);
+  matrix_ = Eigen::Map<const Eigen::SparseMatrix<double>>(unknowns(), unknowns(), slot, outer.data(),
+                                                          inner.data(), zero.data());
+
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const auto vertices = stencil(topology, f);
+    for (std::size_t k = 0; k < 6; ++k)
+      for (std::size_t l = 0; l <= k; ++l) {
+        if (k < 3) face_blocks_.push_back(block_of(vertices[k], vertices[l]));
+        if (flaps) flap_blocks_.push_back(block_of(vertices[k], vertices[l]));
+      }
+  }
+  constant_ = Eigen::VectorXd::Zero(slot);
+  for (int column = 0; column < quadratic_.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(quadratic_, column); it; ++it) {
+      if (it.row() < column) continue;
+      const Block& block =
+          blocks_[block_of(static_cast<std::uint32_t>(it.row()), static_cast<std::uint32_t>(column))];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (block.slot[4 * axis] >= 0) constant_[block.slot[4 * axis]] += it.value();
+    }
+}
+
+std::uint32_t Potential::block_of(std::uint32_t a, std::uint32_t b) const {
+  const std::uint32_t column = std::min(place_[a], place_[b]), row = std::max(place_[a], place_[b]);
+  const auto first = blocks_.begin() + first_block_[column],
+             last = blocks_.begin() + first_block_[column + 1];
+  return static_cast<std::uint32_t>(
+      std::lower_bound(first, last, row, [](const Block& block, std::uint32_t r) { return block.row < r; }) -
+      blocks_.begin());
+}
+
+void Potential::add(std::uint32_t block, const Matrix3d& values, bool turned) {
+  double* into = matrix_.valuePtr();
+  const auto& slot = blocks_[block].slot;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      const std::int32_t at = slot[static_cast<std::size_t>(3 * r + c)];
+      if (at >= 0) into[at] += turned ? values(c, r) : values(r, c);
+    }
+}
+
+Eigen::Vector3d Potential::obstacle_force(const Vector3d& x, double* energy, Matrix3d* curvature,
+                                          Curvature kind) const {
+  Vector3d gradient = Vector3d::Zero();
+  for (const Obstacle& obstacle : loads_.obstacles) {
+    const Distance d = distance(obstacle, x);
+    if (d.value >= loads_.gap) continue;
+    const Barrier b = barrier(d.value, loads_.gap);
+    if (energy) *energy += contact_ * b.value;
+    gradient += contact_ * b.first * d.first;
+    if (!curvature) continue;
+    *curvature += contact_ * b.second * d.first * d.first.transpose();
+    if (kind == Curvature::exact) *curvature += contact_ * b.first * d.second;
+  }
+  return gradient;
+}
+
+Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient) const {
+  const Topology& topology = shell_.topology;
+  const std::size_t faces = topology.faces.size();
+  std::vector<double> stretch(faces), bend(shell_.bending == Bending::midedge ? faces : 0);
+  std::vector<Vector9> stretch_force(gradient ? faces : 0);
+  std::vector<Vector18> bend_force(gradient ? bend.size() : 0);
+  tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
+    const Corners corners = corners_of(topology.faces[f], x);
+    stretch[f] = stretching(law_, shell_.rest[f], corners, gradient ? &stretch_force[f] : nullptr);
+    if (!bend.empty()) {
+      const Flap flap = flap_of(topology, f, x);
+      bend[f] = bending_midedge(shell_.material, shell_.rest[f], Eigen::Matrix2d::Zero(), corners,
+                                flap.across, flap.has, gradient ? &bend_force[f] : nullptr);
+    }
+  });
+
+  Value value;
+  const auto count = [&](double part) {
+    value.energy += part;
+    value.terms += std::abs(part);
+  };
+  Positions sum, size;  // forces, and their absolute values
+  if (gradient) sum = size = Positions::Zero(3, x.cols());
+  const auto push = [&](std::uint32_t v, const Vector3d& force) {
+    sum.col(v) += force;
+    size.col(v) += force.cwiseAbs();
+  };
+  for (std::size_t f = 0; f < faces; ++f) {
+    count(stretch[f]);
+    if (!bend.empty()) count(bend[f]);
+    if (!gradient) continue;
+    const auto vertices = stencil(topology, f);
+    for (int k = 0; k < 3; ++k)
+      push(vertices[static_cast<std::size_t>(k)], stretch_force[f].segment<3>(3 * k));
+    if (!bend.empty())
+      for (int k = 0; k < 6; ++k)
+        push(vertices[static_cast<std::size_t>(k)], bend_force[f].segment<3>(3 * k));
+  }
+  if (quadratic_.size() > 0)
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::VectorXd u = x.row(axis).transpose(), force = quadratic_ * u;
+      count(0.5 * u.dot(force));
+      if (!gradient) continue;
+      sum.row(axis) += force.transpose();
+      size.row(axis) += force.cwiseAbs().transpose();
+    }
+  const double weight = shell_.material.density * shell_.material.thickness;
+  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
+    if (topology.component[v] == none) continue;
+    Vector3d force = weight * vertex_areas_[v] * loads_.gravity;
+    if (loads_.forces.size() > 0) force += loads_.forces.col(v);
+    count(-force.dot(x.col(v)));
+    double contact = 0;
+    const Vector3d push_out = obstacle_force(x.col(v), &contact, nullptr, Curvature::exact);
+    count(vertex_areas_[v] * contact);
+    if (gradient) {
+      push(v, -force);
+      push(v, vertex_areas_[v] * push_out);
+    }
+  }
+  if (loads_.pressure != 0) {
+    count(-loads_.pressure * enclosed_volume(topology.faces, x));
+    if (gradient)
+      for (const Face& face : topology.faces)
+        for (std::size_t k = 0; k < 3; ++k)
+          push(face[k], -loads_.pressure / 6 * x.col(face[(k + 1) % 3]).cross(x.col(face[(k + 2) % 3])));
+  }
+  if (gradient) {
+    gradient->resize(unknowns());
+    for (std::size_t i = 0; i < scalar_.size(); ++i) {
+      const std::uint32_t v = scalar_[i] / 3, axis = scalar_[i] % 3;
+      (*gradient)[static_cast<Eigen::Index>(i)] = sum(axis, v);
+      value.force_scale = std::max(value.force_scale, size(axis, v));
+    }
+  }
+  return value;
+}
+
+template <int Vertices>
+void Potential::scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>>& elements,
+                        const std::vector<std::uint32_t>& blocks) {
+  std::size_t at = 0;
+  for (std::size_t f = 0; f < elements.size(); ++f) {
+    const auto vertices = stencil(shell_.topology, f);
+    for (int k = 0; k < Vertices; ++k)
+      for (int l = 0; l <= k; ++l, ++at) {
+        const std::uint32_t a = vertices[static_cast<std::size_t>(k)],
+                            b = vertices[static_cast<std::size_t>(l)];
+        if (a == b && k != l) continue;  // stands for a vertex that is not there
+        add(blocks[at], elements[f].template block<3, 3>(3 * k, 3 * l), place_[a] < place_[b]);
+      }
+  }
+}
+
+const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvature curvature) {
+  const Topology& topology = shell_.topology;
+  const std::size_t faces = topology.faces.size();
+  Eigen::Map<Eigen::VectorXd>(matrix_.valuePtr(), matrix_.nonZeros()) = constant_;
+
+  std::vector<Matrix9> stretch(faces);
+  std::vector<Matrix18> bend(shell_.bending == Bending::midedge ? faces : 0);
+  tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
+    const Corners corners = corners_of(topology.faces[f], x);
+    stretching(law_, shell_.rest[f], corners, nullptr, &stretch[f], curvature);
+    if (curvature == Curvature::exact && loads_.pressure != 0) {
+      // −p V, V trilinear: the block of corners k and k + 1 is −p/6 times the cross product's with corner k
+      // + 2.
+      for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        const Matrix3d block = -loads_.pressure / 6 * cross_matrix(corners.col(last));
+        stretch[f].block<3, 3>(3 * k, 3 * next) -= block;
+        stretch[f].block<3, 3>(3 * next, 3 * k) += block;
+      }
+    }
+    if (!bend.empty()) {
+      const Flap flap = flap_of(topology, f, x);
+      bending_midedge(shell_.material, shell_.rest[f], Eigen::Matrix2d::Zero(), corners, flap.across,
+                      flap.has, nullptr, &bend[f], curvature);
+    }
+  });
+  scatter<3>(stretch, face_blocks_);
+  scatter<6>(bend, flap_blocks_);
+  if (!loads_.obstacles.empty())
+    for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
+      if (topology.component[v] == none) continue;
+      Matrix3d second = Matrix3d::Zero();
+      obstacle_force(x.col(v), nullptr, &second, curvature);
+      add(block_of(v, v), vertex_areas_[v] * second, false);
+    }
+  return matrix_;
+}
+
+void Potential::advance(Positions& x, const Eigen::VectorXd& direction, double step) const {
+  for (std::size_t i = 0; i < scalar_.size(); ++i)
+    x.data()[scalar_[i]] += step * direction[static_cast<Eigen::Index>(i)];
+}
+
+double Potential::safe_step(const Positions& x, const Eigen::VectorXd& direction) const {
+  if (loads_.obstacles.empty()) return 1;
+  Positions moved = Positions::Zero(3, x.cols());
+  advance(moved, direction, 1);
+  double step = 1;
+  for (std::uint32_t v = 0; v < shell_.topology.vertex_count; ++v) {
+    const double length = moved.col(v).norm();
+    if (length == 0) continue;
+    for (const Obstacle& obstacle : loads_.obstacles) {
+      double size = 0;  // a straight way of this length cannot lead through the body's middle
+      if (const auto* sphere = std::get_if<Sphere>(&obstacle)) size = 0.5 * sphere->radius;
+      if (const auto* capsule = std::get_if<Capsule>(&obstacle)) size = 0.5 * capsule->radius;
+      const double far = std::max(size, distance(obstacle, x.col(v)).value);
+      // A plane's far side is inside all the way: any length will be noticed.
+      if (!std::holds_alternative<Plane>(obstacle)) step = std::min(step, far / length);
+    }
+  }
+  return step;
+}
+
+}  // namespace plisse::shell

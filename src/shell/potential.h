@@ -1,0 +1,76 @@
+// The potential energy of a shell under its loads, its gradient and its sparse Hessian.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+#include "shell/statics.h"
+
+namespace plisse::shell {
+
+// Which scalar unknowns there are: those of no vertex are held, and vertices without faces have none.
+// Vertices are numbered so that factors stay sparse (approximate minimum degree on the vertices' own graph: a
+// third of the size of the matrix, so a ninth of the work).
+class Potential {
+ public:
+  // Keeps references. Which coordinates are held is fixed from here on, where to is not.
+  Potential(const Shell& shell, const Conditions& conditions, const Loads& loads);
+
+  Eigen::Index unknowns() const { return static_cast<Eigen::Index>(scalar_.size()); }
+
+  struct Value {
+    double energy = 0;       // J; infinite where a vertex is inside an obstacle
+    double terms = 0;        // sum of the parts' absolute values, J: what rounding is relative to
+    double force_scale = 0;  // N: largest sum of absolute forces of elements and loads on a vertex
+  };
+  // `gradient`: one entry an unknown, N.
+  Value value(const Positions& x, Eigen::VectorXd* gradient = nullptr) const;
+
+  // The lower half, with the same pattern every time. `positive`: without the parts that may have negative
+  // curvature: compression, normals' own curvature, pressure, obstacles' concave directions.
+  const Eigen::SparseMatrix<double>& hessian(const Positions& x, Curvature curvature);
+
+  // Adds `step` times the unknowns' direction to the positions.
+  void advance(Positions& x, const Eigen::VectorXd& direction, double step) const;
+  // Rest area of the vertex of each unknown, m².
+  const Eigen::VectorXd& areas() const { return unknown_areas_; }
+  // The longest step ≤ 1 along a direction in which no vertex moves further than it safely may beside
+  // obstacles: by the distance to one, or half of a body's own size where it is farther.
+  double safe_step(const Positions& x, const Eigen::VectorXd& direction) const;
+  const Loads& loads() const { return loads_; }
+
+ private:
+  struct Block {  // of two vertices, rows ≥ columns in the order of elimination
+    std::uint32_t row = 0, column = 0;
+    std::array<std::int32_t, 9>
+        slot{};  // into the values by 3·row + column, −1: not in the lower half or held
+  };
+  void number_unknowns(const Conditions& conditions);
+  void build_pattern();
+  std::uint32_t block_of(std::uint32_t a, std::uint32_t b) const;
+  // Adds a 3×3 matrix to the block; `turned`: it stands for (column, row).
+  void add(std::uint32_t block, const Eigen::Matrix3d& values, bool turned);
+  template <int Vertices>
+  void scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>>& elements,
+               const std::vector<std::uint32_t>& blocks);
+  Eigen::Vector3d obstacle_force(const Eigen::Vector3d& x, double* energy, Eigen::Matrix3d* curvature,
+                                 Curvature kind) const;
+
+  const Shell& shell_;
+  const Loads& loads_;
+  StretchingLaw law_;
+  Eigen::VectorXd vertex_areas_, unknown_areas_;
+  double contact_ = 0;                                    // N/m³
+  std::vector<std::uint32_t> place_;                      // of a vertex in the order of elimination
+  std::vector<std::uint32_t> scalar_;                     // 3·vertex + axis of each unknown
+  std::vector<std::array<std::int32_t, 3>> unknown_;      // of each vertex and axis, −1: held
+  Eigen::SparseMatrix<double> quadratic_;                 // V×V, or empty
+  std::vector<Block> blocks_;                             // sorted by column, then row
+  std::vector<std::uint32_t> first_block_;                // of each column
+  std::vector<std::uint32_t> face_blocks_, flap_blocks_;  // 6 or 21 a face: pairs (k ≥ l) of its vertices
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::VectorXd constant_;  // the quadratic bending's own values, which never change
+};
+
+}  // namespace plisse::shell

@@ -1,0 +1,54 @@
+// A shell in static equilibrium: what it is made of, what holds it and what pulls at it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "shell/material.h"
+#include "shell/obstacle.h"
+#include "shell/rest_shape.h"
+#include "shell/stretching.h"
+
+namespace plisse::shell {
+
+enum class Bending { off, quadratic, midedge };
+
+struct Shell {
+  Topology topology;
+  std::vector<RestFace> rest;  // one a face
+  Material material;
+  Stretching stretching = Stretching::tension_field;
+  Bending bending = Bending::quadratic;
+  double residual = 0;  // η of StretchingLaw
+};
+
+// Where a vertex is held, by coordinate: clamps hold all three, rollers and symmetry planes some. `at` is
+// read where `held` is set.
+struct Conditions {
+  Eigen::Matrix<bool, 3, Eigen::Dynamic> held;  // 3×V
+  Positions at;                                 // m, 3×V
+
+  explicit Conditions(std::size_t vertices = 0);
+  void hold(std::uint32_t vertex, const Eigen::Vector3d& position);
+  void hold(std::uint32_t vertex, int axis, double coordinate);
+};
+
+struct Loads {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², on density × thickness × rest area
+  double pressure = 0;  // Pa, along the faces' normals. The volume of an open shell is that of its cone to
+                        // the origin: right where its boundary is held, or lies in planes through the origin
+  Positions forces;     // N, 3×V or empty
+  std::vector<Obstacle> obstacles;
+  double gap = 1e-3;             // m: obstacles begin to push this far off
+  double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
+};
+
+// Throws Error(bad_input), all problems at once: counts that do not agree, values that are not finite, a part
+// of the shell that is pulled at and held by nothing (its number, a vertex of it and what pulls), an obstacle
+// that a held vertex lies in.
+void check(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start);
+
+// Volume under the faces, the sum of their cones to the origin, m³.
+double enclosed_volume(const std::vector<Face>& faces, const Positions& positions);
+
+}  // namespace plisse::shell
