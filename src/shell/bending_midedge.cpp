@@ -11,36 +11,51 @@ using Eigen::Matrix2d;
 using Eigen::Vector3d;
 
 // A hinge by the three vectors from corner i: to the edge's ends p, q, and to d beyond it.
-using Nine = Jet<9>;
-using Vector = std::array<Nine, 3>;
+template <int Order>
+using Vector = std::array<Jet<9, Order>, 3>;
 
-Vector cross(const Vector& a, const Vector& b) {
+template <int Order>
+Vector<Order> cross(const Vector<Order>& a, const Vector<Order>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Nine dot(const Vector& a, const Vector& b) {
+template <int Order>
+Jet<9, Order> dot(const Vector<Order>& a, const Vector<Order>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-Vector minus(const Vector& a, const Vector& b) {
+template <int Order>
+Vector<Order> minus(const Vector<Order>& a, const Vector<Order>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Vector unit(const Vector& a) {
-  const Nine inverse = reciprocal(sqrt(dot(a, a)));
+template <int Order>
+Vector<Order> unit(const Vector<Order>& a) {
+  const Jet<9, Order> inverse = reciprocal(sqrt(dot(a, a)));
   return {a[0] * inverse, a[1] * inverse, a[2] * inverse};
 }
 
-// What fundamental_forms.cpp calls a rise: (p − corner i)·n_i.
-Nine rise_of(const Vector3d& p, const Vector3d& q, const Vector3d& d) {
-  Vector to_p, to_q, to_d;
+// What fundamental_forms.cpp calls a rise, (p − corner i)·n_i, and its derivatives by p, q, d.
+struct Rise {
+  double value = 0;
+  Eigen::Matrix<double, 9, 1> first;
+  Eigen::Matrix<double, 9, 9> second;  // where it was asked for
+};
+
+template <int Order>
+Rise rise_of(const Vector3d& p, const Vector3d& q, const Vector3d& d) {
+  Vector<Order> to_p, to_q, to_d;
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    to_p[at] = Nine::variable(p[k], k);
-    to_q[at] = Nine::variable(q[k], 3 + k);
-    to_d[at] = Nine::variable(d[k], 6 + k);
+    to_p[at] = Jet<9, Order>::variable(p[k], k);
+    to_q[at] = Jet<9, Order>::variable(q[k], 3 + k);
+    to_d[at] = Jet<9, Order>::variable(d[k], 6 + k);
   }
-  const Vector normal = unit(cross(to_p, to_q)), beyond = unit(cross(minus(to_d, to_p), minus(to_q, to_p)));
-  const Vector sum = {normal[0] + beyond[0], normal[1] + beyond[1], normal[2] + beyond[2]};
+  const Vector<Order> normal = unit<Order>(cross<Order>(to_p, to_q));
+  const Vector<Order> beyond = unit<Order>(cross<Order>(minus<Order>(to_d, to_p), minus<Order>(to_q, to_p)));
+  const Vector<Order> sum = {normal[0] + beyond[0], normal[1] + beyond[1], normal[2] + beyond[2]};
   // p is perpendicular to the face's own normal, so of the sum only the other one counts.
-  return dot(to_p, beyond) * reciprocal(sqrt(dot(sum, sum)));
+  const Jet<9, Order> jet = dot<Order>(to_p, beyond) * reciprocal(sqrt(dot<Order>(sum, sum)));
+  Rise rise{jet.value, jet.first, {}};
+  if constexpr (Order == 2) rise.second = jet.second;
+  return rise;
 }
 
 bool usable(const Vector3d& p, const Vector3d& q, const Vector3d& d) {
@@ -60,7 +75,7 @@ double bending_midedge(const Material& material, const RestFace& rest, const Mat
 
   // II − II_u = −2 Σ rise_i G_i − II_u, G_i = ∇λ_i ∇λ_iᵀ: the energy is quadratic in the rises.
   std::array<Matrix2d, 3> shape;
-  std::array<Nine, 3> rise;
+  std::array<Rise, 3> rise;
   std::array<bool, 3> live{};
   Matrix2d difference = -rest_form;
   for (int i = 0; i < 3; ++i) {
@@ -72,8 +87,10 @@ double bending_midedge(const Material& material, const RestFace& rest, const Mat
     const Vector3d d = across.col(i) - origin;
     live[at] = usable(p, q, d);
     if (!live[at]) continue;
-    if (gradient || hessian) {
-      rise[at] = rise_of(p, q, d);
+    if (hessian && curvature == Curvature::exact) {
+      rise[at] = rise_of<2>(p, q, d);
+    } else if (gradient || hessian) {
+      rise[at] = rise_of<1>(p, q, d);
     } else {
       const Vector3d beyond = (d - p).cross(q - p).normalized();
       rise[at].value = p.dot(beyond) / (p.cross(q).normalized() + beyond).norm();

@@ -1,0 +1,211 @@
+// plisse drape: the static equilibrium of cloth, as base surfaces for wrinkles.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/suggest.h"
+#include "pipeline/drape.h"
+#include "pipeline/drape_examples.h"
+#include "pipeline/drape_setup.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app) : common(app) {
+    app.add_option("input", input,
+                   described("A drape scene (docs/drape.md lists its keys), or a set-up of the TFW authors"))
+        ->type_name("SCENE.toml|SETUP.json");
+    app.add_option("--example", example, "A built-in scene instead; --list-examples names them")
+        ->type_name("NAME");
+    app.add_flag("--list-examples", list, "Print the built-in scenes and end");
+    app.add_option("--vertices", vertices, "About how many vertices an example's mesh has")->type_name("N");
+    app.add_option("--seed", seed, "Another seed, another mesh of the same example (default 1)")
+        ->type_name("S");
+    app.add_option("--model", model,
+                   described("tension-field (compression costs nothing; the default) or stvk (a St. "
+                             "Venant-Kirchhoff shell, which buckles by itself)"))
+        ->type_name("tension-field|stvk");
+    app.add_option("--residual", residual,
+                   described("Share of its stiffness that slack cloth keeps, 0 to 1: spreads compression "
+                             "that tension field theory leaves undetermined; 1e-4 is little"))
+        ->type_name("ETA");
+    app.add_option("--start", start, "An OBJ with the positions to start from, vertex by vertex")
+        ->type_name("FILE");
+    app.add_option("--frames", frames,
+                   described("Frames of a scene that moves: 1-24, 12; default: the last alone"))
+        ->type_name("SELECTION");
+    app.add_option(
+           "-o,--output", output,
+           described(
+               "base.ply, or base_####.ply for a file a frame; several frames in one file are the first "
+               "as PLY and all as a point cache (base.pc2) that 'plisse render --cache' reads"))
+        ->type_name("FILE");
+    app.add_option(
+           "--tolerance", tolerance,
+           described("Converged where unbalanced forces are this share of those that meet (default 1e-8)"))
+        ->type_name("SHARE");
+    app.add_option("--iterations", iterations, "At most so many Newton steps a frame (default 1000)")
+        ->type_name("N");
+  }
+
+  CommonArguments common;
+  std::string input, example, vertices, seed, model, residual, start, frames, output = "base.ply", tolerance,
+                                                                              iterations;
+  bool list = false;
+};
+
+double number_in(const std::string& option, const std::string& text, double low, double high) {
+  const auto value = parse_number(text);
+  if (!value || !(*value >= low && *value <= high))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: '{}' is not a number from {} to {}", option, text, low, high));
+  return *value;
+}
+
+DrapeScene scene_of(const Arguments& arguments) {
+  if (arguments.input.empty() == arguments.example.empty())
+    throw Error(ExitCode::bad_input,
+                "plisse drape: give a SCENE.toml, a SETUP.json or --example NAME; see 'plisse drape --help'");
+  DrapeScene scene;
+  if (!arguments.example.empty()) {
+    const int vertices =
+        arguments.vertices.empty() ? 0 : whole_number("--vertices", arguments.vertices, 20, 1000000);
+    const int seed = arguments.seed.empty() ? 1 : whole_number("--seed", arguments.seed, 0, 2147483647);
+    scene = drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed));
+  } else {
+    if (!arguments.vertices.empty() || !arguments.seed.empty())
+      throw Error(ExitCode::bad_input,
+                  "--vertices and --seed are for --example: a scene file has its own mesh");
+    scene = load_drape(arguments.input);
+  }
+  if (!arguments.model.empty()) {
+    const std::vector<std::string> models = {"tension-field", "stvk"};
+    if (arguments.model != models[0] && arguments.model != models[1])
+      throw Error(ExitCode::bad_input,
+                  fmt::format("--model: unknown model '{}'{}; there are tension-field and stvk",
+                              arguments.model, did_you_mean(arguments.model, models)));
+    const bool stvk = arguments.model == "stvk";
+    scene.stretching = stvk ? shell::Stretching::stvk : shell::Stretching::tension_field;
+    scene.bending = stvk ? shell::Bending::midedge : shell::Bending::quadratic;
+  }
+  if (!arguments.residual.empty()) scene.residual = number_in("--residual", arguments.residual, 0, 1);
+  if (!arguments.tolerance.empty())
+    scene.newton.tolerance = number_in("--tolerance", arguments.tolerance, 1e-14, 1);
+  if (!arguments.iterations.empty())
+    scene.newton.max_iterations = whole_number("--iterations", arguments.iterations, 1, 1000000);
+  if (!arguments.start.empty()) scene.start = read_start(arguments.start, scene);
+  return scene;
+}
+
+ordered_json to_json(const DrapeFrame& frame) {
+  const shell::Equilibrium& e = frame.equilibrium;
+  ordered_json trace = ordered_json::array();
+  for (const shell::NewtonStep& step : e.trace)
+    trace.push_back({{"iteration", step.iteration},
+                     {"seconds", step.seconds},
+                     {"energy_J", step.energy},
+                     {"gradient_inf", step.gradient_inf},
+                     {"step", step.step}});
+  return {{"frame", frame.frame},
+          {"load", frame.load},
+          {"path", frame.path},
+          {"energy_J", e.energy},
+          {"gradient_inf", e.gradient_inf},
+          {"force_scale_N", e.force_scale},
+          {"iterations", e.iterations},
+          {"converged", e.converged},
+          {"reason", e.reason},
+          {"measures", ordered_json(frame.measures)},
+          {"analysis_s", e.analysis_s},
+          {"assembly_s", e.assembly_s},
+          {"factor_s", e.factor_s},
+          {"line_search_s", e.line_search_s},
+          {"factor_nonzeros", e.factor_nonzeros},
+          {"trace", trace}};
+}
+
+ordered_json to_json(const DrapeReport& report, const std::string& model) {
+  ordered_json frames = ordered_json::array(), outputs = ordered_json::array();
+  for (const DrapeFrame& frame : report.frames) frames.push_back(to_json(frame));
+  for (const auto& path : report.outputs)
+    outputs.push_back({{"path", path.string()}, {"kind", path.extension() == ".pc2" ? "cache" : "base"}});
+  ordered_json json = {{"vertices", report.vertices}, {"faces", report.faces}, {"model", model}};
+  if (!frames.empty()) {  // the last one speaks for the run
+    for (const char* key : {"energy_J", "gradient_inf", "iterations"}) json[key] = frames.back()[key];
+    json["converged"] = report.converged;
+    json["reason"] = frames.back()["reason"];
+    json["measures"] = frames.back()["measures"];
+  }
+  json["interrupted"] = report.interrupted;
+  json["wall_s"] = report.wall_s;
+  json["peak_rss_MiB"] = report.peak_rss_MiB;
+  json["outputs"] = outputs;
+  json["frames"] = frames;
+  return json;
+}
+
+int run_drape(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.list) {
+    std::string text;
+    for (const DrapeExample& example : drape_examples())
+      text += padded(example.name, 27) + padded(fmt::format("{} vertices", example.vertices), 16) +
+              example.what + "\n";
+    write_stdout(text);
+    return 0;
+  }
+  DrapeRequest request{scene_of(arguments), arguments.frames, arguments.output, {}};
+  const std::string model = request.scene.stretching == shell::Stretching::stvk ? "stvk" : "tension-field";
+  install_interrupt_handlers();
+  Progress progress(Progress::style_for_stderr(arguments.common.quiet()) == Progress::Style::bar
+                        ? Progress::Style::bar
+                        : Progress::Style::none);
+  request.progress = [&](int frame, int frames, const shell::NewtonStep& step) {
+    progress.update(frame - 1, frames, fmt::format("step {}: {:.9g} J", step.iteration, step.energy));
+    log::info(
+        fmt::format("frame {} step {}: {:.12g} J, unbalanced {:.2e} N, {:.3g} of the Newton step, {:.2f} s",
+                    frame, step.iteration, step.energy, step.gradient_inf, step.step, step.seconds));
+  };
+  const DrapeReport report = drape(request);
+  for (const DrapeFrame& frame : report.frames) {
+    std::string measures;
+    for (const auto& [name, value] : frame.measures) measures += fmt::format(", {} {:.6g}", name, value);
+    log::notice(fmt::format("{}frame {}: {} vertices, {:.9g} J after {} steps ({}){}",
+                            frame.equilibrium.converged ? "" : "NOT CONVERGED, ", frame.frame,
+                            report.vertices, frame.equilibrium.energy, frame.equilibrium.iterations,
+                            frame.equilibrium.reason, measures));
+  }
+  for (const auto& path : report.outputs) log::notice(fmt::format("→ {}", path.string()));
+  write_report(to_json(report, model), arguments.common.json());
+  if (report.interrupted) return 128 + signal_number();
+  return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
+}  // namespace
+
+Command add_drape(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("drape", "Solve the equilibrium of cloth: base surfaces for wrinkles");
+  app->footer(
+      "\nplisse drape --example twisted-cylinder --vertices 1309 -o base.ply\n"
+      "plisse drape --example curtain --frames 1-24 -o curtain.ply    curtain.ply and curtain.pc2, for\n"
+      "                                                               'plisse render curtain.ply --cache "
+      "curtain.pc2'");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_drape(*arguments); }};
+}
+
+}  // namespace plisse::cli

@@ -1,0 +1,277 @@
+#include "config/drape_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "base/atomic_file.h"
+#include "config/complaints.h"
+#include "config/kinds.h"
+#include "config/suggest.h"
+
+namespace plisse {
+namespace {
+
+namespace fs = std::filesystem;
+using config::Complaints;
+using config::Problem;
+using Node = toml::node;
+using Hold = DrapeSettings::Hold;
+using Obstacle = DrapeSettings::Obstacle;
+
+// A key sets the settings; those of [[hold]] and [[obstacle]] the last one that was begun.
+struct Key {
+  std::string table, name, allowed, doc;
+  std::function<void(DrapeSettings&, const Node&, const fs::path& folder)> set;
+};
+
+constexpr config::Range lengths{1e-9, 1e6};
+
+glm::dvec3 vector_of(const Node& node, const std::function<double(const Node&)>& number) {
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != 3) throw Problem{"it is no array of three numbers", ""};
+  glm::dvec3 result{0};
+  for (int k = 0; k < 3; ++k)
+    result[k] = config::within(number((*array)[static_cast<std::size_t>(k)]), {-1e9, 1e9});
+  return result;
+}
+glm::dvec3 point_of(const Node& node) {
+  return vector_of(node, config::length_of);
+}
+glm::dvec3 direction_of(const Node& node) {
+  const glm::dvec3 direction = vector_of(node, config::number_of);
+  if (glm::length(direction) == 0) throw Problem{"it has no direction", ""};
+  return glm::normalize(direction);
+}
+
+std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double DrapeSettings::*member,
+                                                                         config::Range range) {
+  return [=](DrapeSettings& s, const Node& n, const fs::path&) {
+    s.*member = config::within(config::number_of(n), range);
+  };
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = {
+      {"drape", "mesh", "an existing OBJ", "The rest shape, flat or not. Either this or `panel`.",
+       [](DrapeSettings& s, const Node& n, const fs::path& folder) {
+         s.mesh = config::existing_file(n, folder);
+       }},
+      {"drape", "panel", "[width, height], lengths",
+       "A rectangle that is meshed here, its lower left corner at the origin.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const toml::array* array = n.as_array();
+         if (!array || array->size() != 2) throw Problem{"it is no array of two lengths", ""};
+         for (std::size_t k = 0; k < 2; ++k)
+           s.panel[k] = config::within(config::length_of((*array)[k]), lengths);
+       }},
+      {"drape", "vertices", "20 … 1000000", "About how many vertices the panel's mesh has (default 1000).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.vertices = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {20, 1e6}));
+       }},
+      {"drape", "seed", "0 … 4294967295", "Another seed, another mesh of the panel.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.seed = static_cast<std::uint32_t>(
+             config::within(static_cast<double>(config::whole_of(n)), {0, 4294967295.0}));
+       }},
+      {"drape", "plane", "xy or xz", "Where the panel starts: upright (xy, the default) or lying (xz).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const std::string word = config::text_of(n);
+         if (word != "xy" && word != "xz") throw config::unknown_word(word, {"xy", "xz"});
+         s.upright = word == "xy";
+       }},
+      {"drape", "start", "an existing OBJ",
+       "Positions to start from, vertex by vertex; default: the rest shape.",
+       [](DrapeSettings& s, const Node& n, const fs::path& folder) {
+         s.start = config::existing_file(n, folder);
+       }},
+      {"drape", "model", "tension-field or stvk",
+       "tension-field (default): compression costs nothing. stvk: a shell that buckles by itself.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const std::string word = config::text_of(n);
+         if (word != "tension-field" && word != "stvk")
+           throw config::unknown_word(word, {"tension-field", "stvk"});
+         s.stvk = word == "stvk";
+       }},
+      {"drape", "residual", "0 … 1", "Share of its stiffness that slack cloth keeps (default 0).",
+       number(&DrapeSettings::residual, {0, 1})},
+      {"drape", "frames", "1 … 100000",
+       "How many frames the scene has (default 1): frame n of N stands at load (n − 1)/(N − 1).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.frames = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {1, 1e5}));
+       }},
+      {"drape", "tolerance", "1e-14 … 1",
+       "Converged where unbalanced forces are this share of those that meet (default 1e-8).",
+       number(&DrapeSettings::tolerance, {1e-14, 1})},
+      {"drape", "iterations", "1 … 1000000", "At most so many Newton steps a frame (default 1000).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.iterations = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {1, 1e6}));
+       }},
+      {"material", "young", "1e-06 … 1e+15", "Young's modulus, Pa.",
+       number(&DrapeSettings::young, {1e-6, 1e15})},
+      {"material", "poisson", "0 … 0.5", "Poisson's ratio.", number(&DrapeSettings::poisson, {0, 0.5})},
+      {"material", "thickness", "a length", "Thickness.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.thickness = config::within(config::length_of(n), lengths);
+       }},
+      {"material", "density", "0 … 1e+06", "kg/m³.", number(&DrapeSettings::density, {0, 1e6})},
+      {"loads", "gravity", "[x, y, z], m/s²", "Default [0, -9.81, 0].",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.gravity = vector_of(n, config::number_of); }},
+      {"loads", "pressure", "-1e+09 … 1e+09",
+       "Pa, along the faces' normals. Parts that are open must be held all along their boundary.",
+       number(&DrapeSettings::pressure, {-1e9, 1e9})},
+      {"loads", "gap", "a length", "Obstacles begin to push this far off (default 2 mm).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.gap = config::within(config::length_of(n), lengths);
+       }},
+      {"hold", "box", "[[x, y, z], [x, y, z]]", "Holds the vertices that start in this box.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const toml::array* array = n.as_array();
+         if (!array || array->size() != 2) throw Problem{"it is no pair of corners", ""};
+         const glm::dvec3 a = point_of((*array)[0]), b = point_of((*array)[1]);
+         s.holds.back().box = {glm::min(a, b), glm::max(a, b)};
+       }},
+      {"hold", "vertices", "an array of vertex numbers, from 0", "Holds these, in place of a box.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const toml::array* array = n.as_array();
+         if (!array || array->empty()) throw Problem{"it is no array of numbers", ""};
+         for (const Node& item : *array)
+           s.holds.back().vertices.push_back(static_cast<std::uint32_t>(
+               config::within(static_cast<double>(config::whole_of(item)), {0, 4294967294.0})));
+       }},
+      {"hold", "axes", "some of x, y, z, such as \"xz\"",
+       "The coordinates that are held (default all: a clamp).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const std::string word = config::text_of(n);
+         if (word.empty() || word.find_first_not_of("xyz") != std::string::npos)
+           throw Problem{"it names other axes", ""};
+         for (std::size_t k = 0; k < 3; ++k)
+           s.holds.back().axes[k] = word.find("xyz"[k]) != std::string::npos;
+       }},
+      {"hold", "move", "[x, y, z], lengths", "How far they are taken at full load.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().move = point_of(n); }},
+      {"hold", "turn", "-36000 … 36000",
+       "By how many degrees they are turned at full load, before they are moved.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.holds.back().turn = config::within(config::number_of(n), {-36000, 36000});
+       }},
+      {"hold", "axis", "[x, y, z]", "The axis of the turn (default [0, 1, 0]).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().axis = direction_of(n); }},
+      {"hold", "point", "[x, y, z], lengths", "A point on it (default the origin).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().point = point_of(n); }},
+      {"obstacle", "kind", "sphere, plane or capsule", "What it is; must be there.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         const std::vector<std::string> words = {"sphere", "plane", "capsule"};
+         const auto found = std::find(words.begin(), words.end(), config::text_of(n));
+         if (found == words.end()) throw config::unknown_word(config::text_of(n), words);
+         s.obstacles.back().kind = static_cast<Obstacle::Kind>(found - words.begin());
+       }},
+      {"obstacle", "at", "[x, y, z], lengths",
+       "Centre, a point of the plane, or one end of the capsule's axis.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().at = point_of(n); }},
+      {"obstacle", "to", "[x, y, z], lengths", "The other end of a capsule's axis.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().to = point_of(n); }},
+      {"obstacle", "normal", "[x, y, z]", "Out of a plane's solid side (default [0, 1, 0]).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().normal = direction_of(n); }},
+      {"obstacle", "radius", "a length", "Of spheres and capsules.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.obstacles.back().radius = config::within(config::length_of(n), lengths);
+       }},
+  };
+  return all;
+}
+
+bool repeated(const std::string& table) {
+  return table == "hold" || table == "obstacle";
+}
+
+void read_table(const std::string& name, const toml::table& table, DrapeSettings& settings,
+                Complaints& complaints) {
+  std::vector<std::string> names;
+  for (const Key& key : keys())
+    if (key.table == name) names.push_back(key.name);
+  for (const auto& [toml_key, node] : table) {
+    const auto found =
+        std::find_if(keys().begin(), keys().end(), [&, given = std::string(toml_key.str())](const Key& key) {
+          return key.table == name && key.name == given;
+        });
+    if (found == keys().end()) {
+      complaints.add(toml_key.source().begin,
+                     fmt::format("key '{}': unknown in {}; allowed: {}{}", toml_key.str(), name,
+                                 config::either(names), did_you_mean(toml_key.str(), names)));
+      continue;
+    }
+    try {
+      found->set(settings, node, settings.file.parent_path());
+    } catch (const Problem& problem) {
+      complaints.add(toml_key.source().begin, fmt::format("key '{}': {}; allowed: {}{}", toml_key.str(),
+                                                          problem.what, found->allowed, problem.hint));
+    }
+  }
+}
+
+void check_item(const std::string& name, const toml::table& table, const DrapeSettings& settings,
+                Complaints& complaints) {
+  const toml::source_position at = table.source().begin;
+  if (name == "hold" && table.contains("box") == table.contains("vertices"))
+    complaints.add(at, "[[hold]] needs either 'box' or 'vertices'");
+  if (name != "obstacle") return;
+  if (!table.contains("kind")) complaints.add(at, "key 'kind': missing; allowed: sphere, plane or capsule");
+  if (settings.obstacles.back().kind != Obstacle::Kind::plane && !table.contains("radius"))
+    complaints.add(at, "key 'radius': missing; spheres and capsules need it");
+}
+
+}  // namespace
+
+DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
+  const toml::table root = config::parse_toml(text, file);
+  Complaints complaints(file);
+  DrapeSettings settings;
+  settings.file = file;
+  const std::vector<std::string> tables = {"drape", "material", "loads", "hold", "obstacle"};
+  for (const auto& [toml_key, node] : root) {
+    const std::string name(toml_key.str());
+    if (std::find(tables.begin(), tables.end(), name) == tables.end()) {
+      complaints.add(toml_key.source().begin,
+                     fmt::format("'{}': unknown; allowed: {}{}", name, config::either(tables),
+                                 did_you_mean(name, tables)));
+    } else if (!repeated(name) && node.is_table()) {
+      read_table(name, *node.as_table(), settings, complaints);
+    } else if (repeated(name) && node.is_array_of_tables()) {
+      for (const Node& item : *node.as_array()) {
+        const std::string place = config::place_in(file, item.source().begin);
+        if (name == "hold") settings.holds.emplace_back().place = place;
+        if (name == "obstacle") settings.obstacles.emplace_back().place = place;
+        read_table(name, *item.as_table(), settings, complaints);
+        check_item(name, *item.as_table(), settings, complaints);
+      }
+    } else {
+      complaints.add(toml_key.source().begin,
+                     fmt::format("'{}': write {} and its keys below", name,
+                                 repeated(name) ? "[[" + name + "]]" : "[" + name + "]"));
+    }
+  }
+  if (settings.mesh.empty() == (settings.panel[0] == 0))
+    complaints.add({1, 1}, "[drape] needs either 'mesh' or 'panel'");
+  complaints.throw_if_any();
+  return settings;
+}
+
+DrapeSettings load_drape_settings(const fs::path& file) {
+  const auto bytes = read_whole_file(file);
+  return parse_drape({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+}
+
+std::string drape_reference_markdown() {
+  std::string text = "| table | key | allowed | what it does |\n|---|---|---|---|\n";
+  for (const Key& key : keys())
+    text += fmt::format("| {} | `{}` | {} | {} |\n",
+                        repeated(key.table) ? "[[" + key.table + "]]" : "[" + key.table + "]", key.name,
+                        key.allowed, key.doc);
+  return text;
+}
+
+}  // namespace plisse

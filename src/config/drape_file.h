@@ -1,0 +1,60 @@
+// Scene files of `plisse drape`: what cloth is made of, what holds it, what pulls at it (docs/drape.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plisse {
+
+// Metres, newtons, pascals; degrees.
+struct DrapeSettings {
+  struct Hold {
+    std::optional<std::array<glm::dvec3, 2>> box;  // of the start; none: `vertices`
+    std::vector<std::uint32_t> vertices;           // of the base, from 0
+    std::array<bool, 3> axes{true, true, true};
+    glm::dvec3 move{0};  // at full load
+    double turn = 0;     // degrees at full load, about `axis` through `point`
+    glm::dvec3 axis{0, 1, 0}, point{0};
+    std::string place;  // "file:line:column", for messages
+  };
+  struct Obstacle {
+    enum class Kind { sphere, plane, capsule };
+    Kind kind = Kind::sphere;
+    glm::dvec3 at{0}, to{0, 1, 0}, normal{0, 1, 0};
+    double radius = 0;
+    std::string place;
+  };
+  std::filesystem::path file;
+  std::filesystem::path mesh;  // OBJ: the rest shape, cut apart by its texture coordinates' own vertices; or
+  std::array<double, 2> panel{};  // width and height of a rectangle that is meshed here
+  int vertices = 1000;
+  std::uint32_t seed = 1;
+  bool upright = true;          // the panel stands in the plane z = 0; else it lies in y = 0
+  std::filesystem::path start;  // OBJ of the base's positions; empty: the rest shape
+  double young = 1e6, poisson = 0.3, thickness = 1e-3, density = 0;
+  bool stvk = false;
+  double residual = 0;
+  glm::dvec3 gravity{0, -9.81, 0};
+  double pressure = 0;
+  double gap = 2e-3;
+  double tolerance = 1e-8;
+  int iterations = 1000;
+  int frames = 1;
+  std::vector<Hold> holds;
+  std::vector<Obstacle> obstacles;
+};
+
+// Throws Error(bad_input), all that is wrong at once, each with file:line:column and what is allowed.
+DrapeSettings parse_drape(std::string_view text, const std::filesystem::path& file);
+DrapeSettings load_drape_settings(const std::filesystem::path& file);
+
+// The table of keys in docs/drape.md.
+std::string drape_reference_markdown();
+
+}  // namespace plisse

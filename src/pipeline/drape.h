@@ -1,0 +1,54 @@
+// plisse drape, the story: a scene → per frame what is held → equilibrium → base surface.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pipeline/drape_scene.h"
+
+namespace plisse {
+
+struct DrapeFrame {
+  int frame = 1;
+  double load = 1;  // t
+  std::string path;
+  shell::Equilibrium equilibrium;  // its positions are moved into the files
+  std::map<std::string, double> measures;
+};
+
+// After every step of the solver: which frame of how many, and the step.
+using DrapeProgress = std::function<void(int frame, int frames, const shell::NewtonStep&)>;
+
+struct DrapeRequest {
+  DrapeScene scene;
+  std::string frames;            // a selection of the scene's frames; empty: the last alone
+  std::filesystem::path output;  // base.ply, or base_####.ply: a file a frame
+  DrapeProgress progress;
+};
+
+struct DrapeReport {
+  std::size_t vertices = 0, faces = 0;
+  std::vector<DrapeFrame> frames;  // those that were asked for
+  std::vector<std::filesystem::path> outputs;
+  bool converged = true;  // all that were asked for
+  bool interrupted = false;
+  double wall_s = 0, peak_rss_MiB = 0;
+};
+
+// Solves the frames in order, each from the one before, carried to where it is held; what is not asked for is
+// solved on the way. Several frames into one file: the first as base.ply, all of them as base.pc2 beside it.
+// A solver that stops short of its rule has its last state written, marked in the file and the report. An
+// interrupt ends the run after the step, with the last good state written. Throws Error.
+DrapeReport drape(const DrapeRequest& request);
+
+// The base surface as PLY: `vertex` x, y, z, and held (1: all three coordinates); `face` vertex_indices and
+// rest: u₀ v₀ u₁ v₁ u₂ v₂ of its corners in the plane of its rest triangle, metres. Comments carry the
+// material
+// ("young", "poisson", "thickness", "density", each with its SI value).
+void write_base(const std::filesystem::path& path, const DrapeScene& scene, const DrapeFrame& frame,
+                const shell::Positions& positions);
+
+}  // namespace plisse

@@ -1,0 +1,41 @@
+// Meshes for draping: irregular Delaunay ones of a wanted number of vertices, and sewing.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "shell/rest_shape.h"
+#include "sizing/polyline.h"
+
+namespace plisse {
+
+struct FlatMesh {
+  shell::Positions points;  // z = 0
+  std::vector<shell::Face> faces;
+};
+
+// An irregular mesh of a panel with about `vertices` vertices (within some percent; the panel is scaled so
+// that the mesher of src/sizing finds its fabric's own edge length in it). Evenly divided along straight
+// sides, so that opposite sides of a rectangle match. Throws Error(bad_input) for panels that cannot be
+// meshed.
+FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing::Polyline>& holes,
+                       int vertices, std::uint32_t seed);
+
+sizing::Polyline rectangle_outline(double width, double height);  // from (0, 0)
+sizing::Polyline circle_outline(double radius, int pieces);       // about (0, 0), counterclockwise
+
+enum class Diagonals { rising, falling, alternating };
+FlatMesh grid_mesh(double width, double height, int columns, int rows, Diagonals diagonals);
+
+// Base vertices for rest vertices: pairs that are named become one.
+struct Sewn {
+  std::vector<std::uint32_t> base_of;  // of each rest vertex
+  std::uint32_t count = 0;
+  std::vector<shell::Face> faces;
+};
+Sewn sew(std::size_t rest_vertices, const std::vector<shell::Face>& rest_faces,
+         const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
+
+}  // namespace plisse

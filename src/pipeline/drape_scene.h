@@ -1,0 +1,39 @@
+// What `plisse drape` solves: a shell from flat panels or a surface, sewn, held and loaded. Scene files, the
+// TFW authors' set-ups and the built-in examples all become one of these.
+//
+// Metres, newtons, y up.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "shell/newton.h"
+#include "shell/statics.h"
+
+namespace plisse {
+
+struct DrapeScene {
+  std::string name;
+  shell::Positions rest;                // may be cut apart where the base is sewn
+  std::vector<shell::Face> rest_faces;  // into `rest`; face i, corner j belongs to base face i, corner j
+  std::vector<shell::Face> faces;       // of the base surface
+  shell::Positions start;               // of the base surface
+  shell::Material material;
+  shell::Stretching stretching = shell::Stretching::tension_field;
+  shell::Bending bending = shell::Bending::quadratic;
+  double residual = 0;
+  shell::Loads loads;
+  // What is held, at load t in 0 … 1. The same coordinates are held for every t.
+  std::function<shell::Conditions(double t)> conditions;
+  int frames = 1;  // of a scene that moves: frame n of N stands at t = (n − 1)/(N − 1)
+  // Numbers that say how it came out, by name; none where empty.
+  std::function<std::map<std::string, double>(const shell::Positions&)> measures;
+  shell::NewtonSettings newton;
+};
+
+}  // namespace plisse

@@ -1,0 +1,309 @@
+#include "pipeline/drape_setup.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "config/drape_file.h"
+#include "io/import_obj.h"
+#include "pipeline/drape_mesh.h"
+
+namespace plisse {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using shell::Conditions;
+using shell::Positions;
+
+Vector3d eigen(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+FlatMesh read_mesh(const fs::path& file) {
+  const io::ObjFile obj = io::read_obj_file(file);
+  if (obj.triangles.empty()) throw Error(ExitCode::bad_input, fmt::format("{}: has no faces", file.string()));
+  FlatMesh mesh;
+  mesh.points.resize(3, static_cast<Eigen::Index>(obj.positions.size()));
+  for (std::size_t v = 0; v < obj.positions.size(); ++v)
+    mesh.points.col(static_cast<Eigen::Index>(v)) = eigen(obj.positions[v]);
+  for (const auto& triangle : obj.triangles)
+    mesh.faces.push_back({static_cast<std::uint32_t>(triangle[0].position),
+                          static_cast<std::uint32_t>(triangle[1].position),
+                          static_cast<std::uint32_t>(triangle[2].position)});
+  return mesh;
+}
+
+// --- our own scenes
+// -------------------------------------------------------------------------------------------
+
+struct Held {
+  DrapeSettings::Hold hold;
+  std::vector<std::uint32_t> vertices;
+};
+
+std::vector<Held> find_held(const DrapeSettings& settings, const Positions& start) {
+  std::vector<Held> all;
+  for (const auto& hold : settings.holds) {
+    Held held{hold, hold.vertices};
+    if (hold.box) {
+      for (Eigen::Index v = 0; v < start.cols(); ++v) {
+        const glm::dvec3 p(start(0, v), start(1, v), start(2, v));
+        if (glm::all(glm::lessThanEqual((*hold.box)[0], p)) &&
+            glm::all(glm::lessThanEqual(p, (*hold.box)[1])))
+          held.vertices.push_back(static_cast<std::uint32_t>(v));
+      }
+      if (held.vertices.empty())
+        throw Error(ExitCode::bad_input, fmt::format("{}: no vertex starts in this box", hold.place));
+    }
+    for (const std::uint32_t v : held.vertices)
+      if (v >= start.cols())
+        throw Error(ExitCode::bad_input, fmt::format("{}: there is no vertex {}; allowed: 0 to {}",
+                                                     hold.place, v, start.cols() - 1));
+    all.push_back(std::move(held));
+  }
+  return all;
+}
+
+shell::Obstacle obstacle_of(const DrapeSettings::Obstacle& obstacle) {
+  switch (obstacle.kind) {
+    case DrapeSettings::Obstacle::Kind::plane:
+      return shell::Plane{eigen(obstacle.at), eigen(obstacle.normal)};
+    case DrapeSettings::Obstacle::Kind::capsule:
+      return shell::Capsule{eigen(obstacle.at), eigen(obstacle.to), obstacle.radius};
+    case DrapeSettings::Obstacle::Kind::sphere:
+      break;
+  }
+  return shell::Sphere{eigen(obstacle.at), obstacle.radius};
+}
+
+DrapeScene scene_of(const DrapeSettings& settings) {
+  DrapeScene scene;
+  scene.name = settings.file.stem().string();
+  const FlatMesh mesh = settings.mesh.empty()
+                            ? delaunay_mesh(rectangle_outline(settings.panel[0], settings.panel[1]), {},
+                                            settings.vertices, settings.seed)
+                            : read_mesh(settings.mesh);
+  scene.rest = scene.start = mesh.points;
+  scene.rest_faces = scene.faces = mesh.faces;
+  if (settings.mesh.empty() && !settings.upright) {
+    scene.start.row(2) = -mesh.points.row(1);
+    scene.start.row(1).setZero();
+  }
+  if (!settings.start.empty()) scene.start = read_start(settings.start, scene);
+  scene.material = {settings.young, settings.poisson, settings.thickness, settings.density};
+  if (settings.stvk) {
+    scene.stretching = shell::Stretching::stvk;
+    scene.bending = shell::Bending::midedge;
+  }
+  scene.residual = settings.residual;
+  scene.loads.gravity = eigen(settings.gravity);
+  scene.loads.pressure = settings.pressure;
+  scene.loads.gap = settings.gap;
+  for (const auto& obstacle : settings.obstacles) scene.loads.obstacles.push_back(obstacle_of(obstacle));
+  scene.newton.tolerance = settings.tolerance;
+  scene.newton.max_iterations = settings.iterations;
+  scene.frames = settings.frames;
+  const Positions start = scene.start;
+  scene.conditions = [start, all = find_held(settings, start)](double t) {
+    Conditions conditions(static_cast<std::size_t>(start.cols()));
+    for (const Held& held : all) {
+      const Vector3d point = eigen(held.hold.point);
+      const Eigen::AngleAxisd turn(t * held.hold.turn * std::numbers::pi / 180, eigen(held.hold.axis));
+      for (const std::uint32_t v : held.vertices) {
+        const Vector3d at = point + turn * (start.col(v) - point) + t * eigen(held.hold.move);
+        for (int axis = 0; axis < 3; ++axis)
+          if (held.hold.axes[static_cast<std::size_t>(axis)]) conditions.hold(v, axis, at[axis]);
+      }
+    }
+    return conditions;
+  };
+  return scene;
+}
+
+// --- the authors' set-ups
+// --------------------------------------------------------------------------------------
+
+class Setup {
+ public:
+  explicit Setup(const fs::path& file) : file_(file) {
+    const auto bytes = read_whole_file(file);
+    json_ = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+    if (!json_.is_object())
+      throw Error(ExitCode::bad_input, fmt::format("{}: is no JSON object", file.string()));
+  }
+
+  double number(const char* key, std::optional<double> otherwise = {}) {
+    const auto found = json_.find(key);
+    if (found == json_.end() && otherwise) return *otherwise;
+    if (found != json_.end() && found->is_number() && std::isfinite(found->get<double>()))
+      return found->get<double>();
+    complain(
+        fmt::format("key '{}': {}; a number is wanted", key, found == json_.end() ? "missing" : "no number"));
+    return 0;
+  }
+  std::string text(const char* key) {
+    const auto found = json_.find(key);
+    return found != json_.end() && found->is_string() ? found->get<std::string>() : "";
+  }
+  Vector3d vector(const char* key) {
+    const auto found = json_.find(key);
+    if (found == json_.end()) return Vector3d::Zero();
+    Vector3d result = Vector3d::Zero();
+    bool fine = found->is_array() && found->size() == 3;
+    for (std::size_t k = 0; fine && k < 3; ++k) {
+      fine = (*found)[k].is_number();
+      if (fine) result[static_cast<int>(k)] = (*found)[k].get<double>();
+    }
+    if (!fine) complain(fmt::format("key '{}': three numbers are wanted", key));
+    return result;
+  }
+  // The file that a key names; empty where there is none, with a warning if `wanted`.
+  fs::path existing(const char* key, const char* what) {
+    const std::string name = text(key);
+    if (name.empty()) return {};
+    const fs::path path = file_.parent_path() / name;
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) return path;
+    log::warn(fmt::format("{}: '{}' names {}, which is not there; solving without {}", file_.string(), key,
+                          name, what));
+    return {};
+  }
+  void complain(const std::string& problem) {
+    if (!problems_.empty()) problems_ += '\n';
+    problems_ += fmt::format("{}: {}", file_.string(), problem);
+  }
+  void throw_if_any() const {
+    if (!problems_.empty()) throw Error(ExitCode::bad_input, problems_);
+  }
+  const fs::path& file() const { return file_; }
+
+ private:
+  fs::path file_;
+  nlohmann::json json_;
+  std::string problems_;
+};
+
+// "count", "#", then lines "vertex x y z" with # in place of a coordinate that is free.
+Conditions read_clamps(const fs::path& file, std::size_t vertices) {
+  const auto bytes = read_whole_file(file);
+  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+  Conditions conditions(vertices);
+  std::string line;
+  int number = 0, found = 0;
+  std::optional<int> expected;
+  const auto fail = [&](const std::string& what) {
+    throw Error(ExitCode::bad_input, fmt::format("{}:{}: {}", file.string(), number, what));
+  };
+  while (std::getline(lines, line)) {
+    ++number;
+    std::istringstream words(line);
+    std::vector<std::string> word;
+    for (std::string w; words >> w;) word.push_back(w);
+    if (word.empty() || (word.size() == 1 && word[0] == "#")) continue;
+    if (!expected && word.size() == 1) {
+      const auto count = parse_number(word[0]);
+      if (!count || *count < 0 || *count != std::floor(*count))
+        fail("the number of clamped vertices is wanted");
+      expected = static_cast<int>(*count);
+      continue;
+    }
+    if (word.size() != 4) fail("a vertex and three coordinates are wanted, # for one that is free");
+    const auto vertex = parse_number(word[0]);
+    if (!vertex || *vertex < 0 || *vertex >= static_cast<double>(vertices) || *vertex != std::floor(*vertex))
+      fail(fmt::format("'{}' is no vertex; allowed: 0 to {}", word[0], vertices - 1));
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string& text = word[static_cast<std::size_t>(axis) + 1];
+      if (text == "#") continue;
+      const auto at = parse_number(text);
+      if (!at || !std::isfinite(*at)) fail(fmt::format("'{}' is no coordinate", text));
+      conditions.hold(static_cast<std::uint32_t>(*vertex), axis, *at);
+    }
+    ++found;
+  }
+  if (expected && found != *expected)
+    fail(fmt::format("{} vertices are promised, there are {}", *expected, found));
+  return conditions;
+}
+
+DrapeScene scene_of(Setup& setup) {
+  DrapeScene scene;
+  scene.name = setup.file().stem().string();
+  scene.material = {setup.number("youngs_modulus"), setup.number("poisson_ratio"), setup.number("thickness"),
+                    setup.number("density", 0)};
+  scene.loads.gravity = setup.vector("gravity");
+  scene.loads.pressure = setup.number("pressure", 0);
+  const std::string stretching = setup.text("stretching_type");
+  if (stretching == "StVK") {
+    scene.stretching = shell::Stretching::stvk;
+  } else if (!stretching.empty() && stretching != "tensionField") {
+    setup.complain(fmt::format("key 'stretching_type': '{}'; allowed: tensionField or StVK", stretching));
+  }
+  const std::string bending = setup.text("bending_type");
+  scene.bending = bending == "quadratic" || (bending.empty() && stretching != "StVK")
+                      ? shell::Bending::quadratic
+                      : shell::Bending::midedge;
+  const std::string rest = setup.text("rest_mesh");
+  if (rest.empty()) setup.complain("key 'rest_mesh': missing; an OBJ is wanted");
+  setup.throw_if_any();
+
+  const FlatMesh mesh = read_mesh(setup.file().parent_path() / rest);
+  scene.rest = scene.start = mesh.points;
+  scene.rest_faces = scene.faces = mesh.faces;
+  // Sewn: the rest mesh is cut apart, the surface they ship says what belongs together. Only its faces are
+  // taken.
+  const std::string current = setup.text("cur_mesh");
+  std::error_code error;
+  if (!current.empty() && fs::is_regular_file(setup.file().parent_path() / current, error)) {
+    const FlatMesh base = read_mesh(setup.file().parent_path() / current);
+    if (base.faces != mesh.faces) {
+      scene.faces = base.faces;
+      scene.start = base.points;
+      log::warn(fmt::format("{}: the rest mesh is cut apart; starting from '{}', which is how it is sewn",
+                            setup.file().string(), current));
+    }
+  }
+  if (!setup.existing("obs_mesh", "an obstacle").empty())
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: 'obs_mesh': triangle meshes are no obstacles here; a scene file "
+                            "has spheres, planes and capsules",
+                            setup.file().string()));
+  setup.existing("init_mesh", "a guess");
+  const auto clamps = setup.existing("clamped_DOFs", "clamps");
+  const auto count = static_cast<std::size_t>(scene.start.cols());
+  const Conditions conditions = clamps.empty() ? Conditions(count) : read_clamps(clamps, count);
+  scene.conditions = [conditions](double) { return conditions; };
+  return scene;
+}
+
+}  // namespace
+
+DrapeScene load_drape(const fs::path& file) {
+  if (file.extension() == ".json") {
+    Setup setup(file);
+    return scene_of(setup);
+  }
+  if (file.extension() != ".toml")
+    throw Error(ExitCode::bad_input, fmt::format("{}: neither a SCENE.toml nor a SETUP.json", file.string()));
+  return scene_of(load_drape_settings(file));
+}
+
+Positions read_start(const fs::path& file, const DrapeScene& scene) {
+  const Positions positions = read_mesh(file).points;
+  if (positions.cols() != scene.start.cols())
+    throw Error(ExitCode::bad_input, fmt::format("{}: has {} vertices, the base surface has {}",
+                                                 file.string(), positions.cols(), scene.start.cols()));
+  return positions;
+}
+
+}  // namespace plisse
