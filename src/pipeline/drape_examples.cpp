@@ -177,9 +177,35 @@ DrapeScene regular_cylinder(const Wanted& wanted, Diagonals diagonals) {
 // --- two alike panels, sewn along their outlines, blown up
 // ----------------------------------------------------
 
+// An edge that crosses the panel from one seam vertex to another would be sewn to its twin: it gets a vertex
+// in its middle.
+void split_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
+  std::vector<bool> on_seam(static_cast<std::size_t>(mesh.points.cols()), false);
+  for (const std::uint32_t v : seam) on_seam[v] = true;
+  const auto topology = shell::build_topology(mesh.faces, on_seam.size());
+  std::vector<bool> split(mesh.faces.size(), false);  // a triangle is split once; others of its edges stay
+  for (const shell::Edge& edge : topology.edges) {
+    if (edge.boundary() || !on_seam[edge.vertex[0]] || !on_seam[edge.vertex[1]]) continue;
+    if (split[edge.face[0]] || split[edge.face[1]]) continue;
+    const auto middle = static_cast<std::uint32_t>(mesh.points.cols());
+    mesh.points.conservativeResize(3, middle + 1);
+    mesh.points.col(middle) = 0.5 * (mesh.points.col(edge.vertex[0]) + mesh.points.col(edge.vertex[1]));
+    for (const std::uint32_t f : edge.face) {
+      split[f] = true;
+      shell::Face other = mesh.faces[f];
+      for (std::uint32_t& v : mesh.faces[f])
+        if (v == edge.vertex[0]) v = middle;
+      for (std::uint32_t& v : other)
+        if (v == edge.vertex[1]) v = middle;
+      mesh.faces.push_back(other);
+    }
+  }
+}
+
 // The panels lie in the plane y = 0 and bulge apart; seams stay in that plane, of which the whole is a mirror
 // image. What is left of rigid motions is taken by three more coordinates that a symmetric shape needs not.
-DrapeScene pillow(const FlatMesh& mesh, const std::vector<std::uint32_t>& seam, double bulge) {
+DrapeScene pillow(FlatMesh mesh, const std::vector<std::uint32_t>& seam, double bulge) {
+  split_chords(mesh, seam);
   const auto count = static_cast<std::uint32_t>(mesh.points.cols());
   DrapeScene scene;
   scene.rest.resize(3, 2 * count);

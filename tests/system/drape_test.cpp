@@ -1,0 +1,136 @@
+// plisse drape from outside: what is written, that other commands read it, and how it ends.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "io/ply.h"
+#include "system/plisse.h"
+
+namespace plisse::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(Drape, WritesABaseSurfaceAndItsReport) {
+  const TemporaryFolder folder;
+  const std::string base = (folder / "base.ply").string(), report = (folder / "report.json").string();
+  const Outcome outcome =
+      plisse({"drape", "--example", "strip", "--vertices", "120", "-o", base, "--json", report});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(read_text(report));
+  for (const char* key : {"vertices", "faces", "model", "energy_J", "gradient_inf", "iterations", "converged",
+                          "reason", "wall_s", "peak_rss_MiB", "measures"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["model"], "tension-field");
+  EXPECT_NEAR(json["energy_J"].get<double>(), 0.5 * 1e6 * 1e-4 * 0.105 * 0.105 * 0.025,
+              1e-9);  // docs/drape.md
+  EXPECT_NEAR(json["vertices"].get<double>(), 120, 24);
+
+  const io::Ply ply = io::read_ply(base);
+  const auto* faces = ply.find("face");
+  ASSERT_TRUE(faces && faces->find("rest"));
+  double area = 0;  // of the rest triangles: the strip's
+  const auto& rest = faces->find("rest")->values;
+  for (std::size_t f = 0; f < faces->count; ++f)
+    area += 0.5 * (rest[6 * f + 2] * rest[6 * f + 5] - rest[6 * f + 3] * rest[6 * f + 4]);
+  EXPECT_NEAR(area, 0.025, 1e-9);
+  EXPECT_EQ(faces->count, json["faces"]);
+  const Outcome info = plisse({"info", base});
+  EXPECT_EQ(info.code, 0) << info.err;
+}
+
+TEST(Drape, FramesBecomeACacheOrASequenceThatRenderReads) {
+  const TemporaryFolder folder;
+  const std::string base = (folder / "base.ply").string();
+  const std::vector<std::string> command = {
+      "drape", "--example", "twisted-cylinder", "--vertices", "120", "--frames", "1-24x6", "-q", "-o", base};
+  const Outcome outcome = plisse(command);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome info = plisse({"info", base, "--cache", (folder / "base.pc2").string(), "--json", "-"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  EXPECT_EQ(nlohmann::json::parse(info.out)["sequence"]["frames"], 4);
+  auto numbered = command;
+  numbered.back() = (folder / "twist_####.ply").string();
+  ASSERT_EQ(plisse(numbered).code, 0);
+  for (const char* name : {"twist_0001.ply", "twist_0007.ply", "twist_0013.ply", "twist_0019.ply"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  // The same surface, whether it came along or alone.
+  EXPECT_EQ(read_bytes(folder / "twist_0001.ply"), read_bytes(base));
+}
+
+TEST(Drape, StoppingShortIsOneAndMarked) {
+  const TemporaryFolder folder;
+  const std::string base = (folder / "base.ply").string(), report = (folder / "report.json").string();
+  const Outcome outcome = plisse({"drape", "--example", "stretched-sheet", "--vertices", "100",
+                                  "--iterations", "1", "-o", base, "--json", report});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  const auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_FALSE(json["converged"].get<bool>());
+  EXPECT_THAT(json["reason"].get<std::string>(), HasSubstr("limit of 1 iterations"));
+  EXPECT_THAT(io::read_ply(base).comments, ::testing::Contains(HasSubstr("not converged")));
+}
+
+TEST(Drape, RefusesWhatMakesNoSense) {
+  const TemporaryFolder folder;
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "drape");
+    arguments.insert(arguments.end(), {"-o", (folder / "base.ply").string()});
+    const Outcome outcome = plisse(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(refused({"--example", "stripp"}), HasSubstr("did you mean 'strip'"));
+  EXPECT_THAT(refused({"--example", "strip", "--model", "stvq"}), HasSubstr("did you mean 'stvk'"));
+  EXPECT_THAT(refused({"--example", "strip", "--frames", "25"}), HasSubstr("24"));
+  EXPECT_THAT(refused({}), HasSubstr("give a SCENE.toml"));
+  write_text(folder / "bad.toml",
+             "[drape]\npanel = [1]\nvertice = 5\n[material]\npoisson = 0.6\n[[hold]]\nturn = "
+             "1\n[[obstacle]]\nkind = \"cube\"\n");
+  const std::string all = refused({(folder / "bad.toml").string()});
+  EXPECT_THAT(all, AllOf(HasSubstr("bad.toml:2"), HasSubstr("did you mean 'vertices'"),
+                         HasSubstr("bad.toml:5"), HasSubstr("needs either 'box' or 'vertices'"),
+                         HasSubstr("key 'radius': missing"), HasSubstr("sphere, plane or capsule")));
+  write_text(folder / "loose.toml", "[drape]\npanel = [1, 1]\nvertices = 30\n[material]\ndensity = 100\n");
+  EXPECT_THAT(refused({(folder / "loose.toml").string()}),
+              HasSubstr("held by nothing and gravity pulls at it"));
+}
+
+// A square of .3 m, held at its upper corners and lowered onto a plane.
+TEST(Drape, SceneFiles) {
+  const TemporaryFolder folder;
+  write_text(folder / "cloth.toml",
+             "[drape]\npanel = [\"30 cm\", 0.3]\nvertices = 200\nplane = \"xz\"\n"
+             "[material]\nyoung = 1e5\nthickness = \"0.5 mm\"\ndensity = 400\n[loads]\ngap = \"1 mm\"\n"
+             "[[hold]]\nbox = [[-1, -1, -0.001], [1, 1, 0.001]]\nmove = [0, -0.05, 0]\n"
+             "[[obstacle]]\nkind = \"plane\"\nat = [0, -0.1, 0]\n");
+  const std::string base = (folder / "base.ply").string();
+  const Outcome outcome = plisse({"drape", (folder / "cloth.toml").string(), "-o", base});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const io::Ply ply = io::read_ply(base);
+  double low = 1, high = -1;
+  for (const double y : ply.find("vertex")->find("y")->values) {
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  EXPECT_GT(low, -0.1);
+  EXPECT_LT(low, -0.099);  // hangs down to the plane and lies on it, within the gap
+  EXPECT_NEAR(high, -0.05, 1e-12);
+}
+
+TEST(Drape, AuthorsSetUp) {
+  const auto setup = shared_data("tfw-disk/elastic/disk_elastic.json");
+  if (!std::filesystem::exists(setup)) GTEST_SKIP() << setup << " is not there";
+  const TemporaryFolder folder;
+  const std::string report = (folder / "report.json").string();
+  const Outcome outcome =
+      plisse({"drape", setup.string(), "-o", (folder / "base.ply").string(), "--json", report});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("solving without a guess"), HasSubstr("solving without an obstacle")));
+  // What their shipped surface has, by our code; tests/shell compares the two exactly.
+  EXPECT_NEAR(nlohmann::json::parse(read_text(report))["energy_J"].get<double>(), -0.3741838, 1e-7);
+}
+
+}  // namespace
+}  // namespace plisse::test
