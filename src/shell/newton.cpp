@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "base/error.h"
+#include "shell/cholesky.h"
 
 namespace plisse::shell {
 namespace {
@@ -18,9 +18,6 @@ using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// LDLᵀ in the order the potential numbers its unknowns in; the symbolic part once.
-using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 class Search {
  public:
@@ -124,15 +121,15 @@ class Search {
       result_.assembly_s += since(began);
       began = Clock::now();
       if (!analysed_) {
-        factor_.analyzePattern(system_);
+        factor_.analyse(system_);
         analysed_ = true;
         result_.analysis_s = since(began);
         began = Clock::now();
       }
-      factor_.factorize(system_);
+      const bool positive = factor_.factorise(system_);
       result_.factor_s += since(began);
-      if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0) {
-        result_.factor_nonzeros = static_cast<std::size_t>(factor_.matrixL().nestedExpression().nonZeros());
+      if (positive) {
+        result_.factor_nonzeros = factor_.nonzeros();
         VectorXd direction = -factor_.solve(gradient);
         if (direction.allFinite() && gradient.dot(direction) < 0) return direction;
       }
@@ -200,7 +197,7 @@ class Search {
   const NewtonProgress& progress_;
   Potential potential_;
   Equilibrium result_;
-  Factor factor_;
+  Cholesky factor_;
   Eigen::SparseMatrix<double> system_;
   Clock::time_point began_ = Clock::now();
   double rounding_force_ = 0, extent_ = 0, shift_ = 0, least_shift_ = 0;

@@ -23,8 +23,9 @@ TEST(Drape, WritesABaseSurfaceAndItsReport) {
                           "reason", "wall_s", "peak_rss_MiB", "measures"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_EQ(json["model"], "tension-field");
-  EXPECT_NEAR(json["energy_J"].get<double>(), 0.5 * 1e6 * 1e-4 * 0.105 * 0.105 * 0.025,
-              1e-9);  // docs/drape.md
+  // ½Yh(λ₁/2)²A; the mesher's grid places the ends to some 1e-7 of the length, a tenth of which is the
+  // stretch.
+  EXPECT_NEAR(json["energy_J"].get<double>() / (0.5 * 1e6 * 1e-4 * 0.105 * 0.105 * 0.025), 1, 2e-6);
   EXPECT_NEAR(json["vertices"].get<double>(), 120, 24);
 
   const io::Ply ply = io::read_ply(base);

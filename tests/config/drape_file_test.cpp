@@ -1,0 +1,58 @@
+// Scene files of plisse drape: what they set, and that the documentation says so.
+#include "config/drape_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/errors.h"
+#include "support/files.h"
+
+namespace plisse {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(DrapeFile, ReadsWhatItSays) {
+  const DrapeSettings s = parse_drape(
+      "[drape]\npanel = [\"60 cm\", 0.4]\nvertices = 800\nplane = \"xz\"\nmodel = \"stvk\"\nframes = 3\n"
+      "[material]\nthickness = \"0.5 mm\"\n[loads]\ngravity = [0, 0, -1]\n"
+      "[[hold]]\nbox = [[1, 0, 2], [0, 1, 0]]\naxes = \"xz\"\nturn = 90\n"
+      "[[hold]]\nvertices = [3, 4]\n"
+      "[[obstacle]]\nkind = \"plane\"\nnormal = [0, 0, 2]\n",
+      "cloth.toml");
+  EXPECT_DOUBLE_EQ(s.panel[0], 0.6);
+  EXPECT_EQ(s.vertices, 800);
+  EXPECT_FALSE(s.upright);
+  EXPECT_TRUE(s.stvk);
+  EXPECT_DOUBLE_EQ(s.thickness, 0.5e-3);
+  EXPECT_EQ(s.gravity, glm::dvec3(0, 0, -1));
+  ASSERT_EQ(s.holds.size(), 2U);
+  EXPECT_EQ((*s.holds[0].box)[0], glm::dvec3(0, 0, 0));  // corners in any order
+  EXPECT_EQ((*s.holds[0].box)[1], glm::dvec3(1, 1, 2));
+  EXPECT_EQ(s.holds[0].axes, (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(s.holds[1].vertices, (std::vector<std::uint32_t>{3, 4}));
+  EXPECT_EQ(s.holds[1].place, "cloth.toml:15:1");
+  ASSERT_EQ(s.obstacles.size(), 1U);
+  EXPECT_EQ(s.obstacles[0].normal, glm::dvec3(0, 0, 1));
+}
+
+TEST(DrapeFile, AllMistakesAtOnce) {
+  const std::string all = test::error_of([] {
+    parse_drape(
+        "[drape]\nvertices = 5\n[materials]\nyoung = 1\n[loads]\ngravity = [0, 1]\n[hold]\nturn = 1\n",
+        "bad.toml");
+  });
+  EXPECT_THAT(
+      all, AllOf(HasSubstr("bad.toml:1:1: [drape] needs either 'mesh' or 'panel'"), HasSubstr("bad.toml:2"),
+                 HasSubstr("did you mean 'material'"), HasSubstr("bad.toml:6"), HasSubstr("write [[hold]]")));
+}
+
+TEST(DrapeFile, ReferenceIsWhatTheParserSays) {
+  EXPECT_THAT(test::read_text(test::source_file("docs/drape.md")), HasSubstr(drape_reference_markdown()))
+      << "docs/drape.md has another table:\n"
+      << drape_reference_markdown();
+}
+
+}  // namespace
+}  // namespace plisse
