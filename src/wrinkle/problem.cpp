@@ -1,0 +1,246 @@
+#include "wrinkle/problem.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "wrinkle/start.h"
+
+namespace plisse::wrinkle {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::vector<bool> negated(std::vector<bool> flags) {
+  flags.flip();
+  return flags;
+}
+
+// No amplitude: clamped, on a wrinkle-free face, or on no face at all.
+std::vector<bool> pinned_vertices(const shell::Topology& topology, const std::vector<bool>& wrinkle_free,
+                                  const std::vector<bool>& clamped) {
+  std::vector<bool> pinned(topology.vertex_count, true);
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    if (wrinkle_free[f]) continue;
+    for (const std::uint32_t v : topology.faces[f]) pinned[v] = !clamped.empty() && clamped[v];
+  }
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    if (!wrinkle_free[f]) continue;
+    for (const std::uint32_t v : topology.faces[f]) pinned[v] = true;
+  }
+  return pinned;
+}
+
+// Faces that carry energy: those with a corner that may move.
+std::vector<bool> live_faces(const shell::Topology& topology, const std::vector<bool>& wrinkle_free,
+                             const std::vector<bool>& pinned) {
+  std::vector<bool> live = negated(wrinkle_free);
+  for (std::size_t f = 0; f < live.size(); ++f) {
+    const shell::Face& t = topology.faces[f];
+    if (pinned[t[0]] && pinned[t[1]] && pinned[t[2]]) live[f] = false;
+  }
+  return live;
+}
+
+// The nearest positive semidefinite matrix in the units that `scale` (per row) gives.
+void project(LocalMatrix& matrix, const LocalVector& scale) {
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  // Most are positive already, which a Cholesky factorisation tells at a tenth of the price.
+  if (Eigen::LLT<LocalMatrix>(matrix).info() != Eigen::Success) {
+    const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(matrix);
+    matrix = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+             eigen.eigenvectors().transpose();
+  }
+  const LocalVector back = scale.cwiseInverse();
+  matrix = back.asDiagonal() * matrix * back.asDiagonal();
+}
+
+}  // namespace
+
+Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const Model& model,
+                 std::vector<bool> wrinkle_free, std::vector<bool> clamped)
+    : topology_(std::move(topology)),
+      forms_(std::move(forms)),
+      model_(model),
+      wrinkle_free_(std::move(wrinkle_free)),
+      pinned_(pinned_vertices(topology_, wrinkle_free_, clamped)),
+      complex_(topology_, live_faces(topology_, wrinkle_free_, pinned_), pinned_) {
+  shell::check(model.material);
+  for (std::size_t v = 0; v < pinned_.size(); ++v)
+    amplitude_unknown_.push_back(pinned_[v] ? -1 : amplitude_count_++);
+  size_ = period_begin() + static_cast<Index>(complex_.periods);
+
+  const std::vector<LocalWaves> own = local_waves(forms_, topology_, complex_.live, pinned_, model_);
+  double amplitude = 0, frequency = 0;
+  for (const LocalWaves& w : own) {
+    const double rate = w.gradient.norm();
+    frequency = std::max(frequency, rate);
+    if (rate > 0) amplitude = std::max(amplitude, std::sqrt(2 * std::max(w.compression, 0.0)) / rate);
+  }
+  frequency_scale_ = frequency > 0 ? frequency : 1;
+  amplitude_scale_ = amplitude > 0 ? amplitude : model_.material.thickness;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {
+    if (!complex_.live[f]) continue;
+    Face face{f, FaceEnergy(forms_[f], model_), {}, {}, {}};
+    for (const std::uint32_t v : topology_.faces[f]) face.unknown.push_back(amplitude_unknown_[v]);
+    relaxed_energy_ += face.energy.relaxed();
+    const auto& jumps = complex_.jumps[f];
+    face.phase.resize(2, static_cast<Index>(3 + jumps.size()));
+    face.phase.leftCols<3>() = forms_[f].rest.gradients;
+    for (const int v : complex_.phase_vertex[f]) face.unknown.push_back(phase_begin() + v);
+    for (std::size_t j = 0; j < jumps.size(); ++j) {
+      face.phase.col(static_cast<Index>(3 + j)) = forms_[f].rest.gradients * jumps[j].corners;
+      face.unknown.push_back(period_begin() + jumps[j].period);
+    }
+    for (const Index i : face.unknown) {
+      for (const Index j : face.unknown) {
+        if (i >= j && j >= 0) entries.emplace_back(i, j, 0.0);
+      }
+    }
+    faces_.push_back(std::move(face));
+  }
+  for (Index i = 0; i < size_; ++i) entries.emplace_back(i, i, 0.0);
+  pattern_.resize(size_, size_);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  pattern_.makeCompressed();
+  for (Face& face : faces_) {
+    for (std::size_t i = 0; i < face.unknown.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Index row = std::max(face.unknown[i], face.unknown[j]),
+                    column = std::min(face.unknown[i], face.unknown[j]);
+        if (column < 0) {
+          face.slot.push_back(-1);
+          continue;
+        }
+        const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
+        const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
+        face.slot.push_back(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
+      }
+    }
+  }
+}
+
+VectorXd Problem::pack(const Waves& waves) const {
+  VectorXd x(size_);
+  for (std::size_t v = 0; v < pinned_.size(); ++v) {
+    if (amplitude_unknown_[v] >= 0)
+      x[amplitude_unknown_[v]] = waves.amplitude[static_cast<Index>(v)] / amplitude_scale_;
+  }
+  x.segment(phase_begin(), waves.phase.size()) = waves.phase;
+  x.tail(waves.period.size()) = waves.period;
+  return x;
+}
+
+Waves Problem::unpack(const VectorXd& x) const {
+  Waves waves;
+  waves.amplitude = VectorXd::Zero(static_cast<Index>(pinned_.size()));
+  for (std::size_t v = 0; v < pinned_.size(); ++v) {
+    if (amplitude_unknown_[v] >= 0)
+      waves.amplitude[static_cast<Index>(v)] = amplitude_scale_ * x[amplitude_unknown_[v]];
+  }
+  waves.phase = x.segment(phase_begin(), static_cast<Index>(complex_.vertices));
+  waves.period = x.tail(static_cast<Index>(complex_.periods));
+  return waves;
+}
+
+LocalVector Problem::local(const Face& face, const VectorXd& x) const {
+  LocalVector result;
+  for (Index i = 0; i < 3; ++i) {
+    const Index unknown = face.unknown[static_cast<std::size_t>(i)];
+    result[i] = unknown >= 0 ? amplitude_scale_ * x[unknown] : 0;
+  }
+  result.tail<2>().setZero();
+  for (Index i = 0; i < face.phase.cols(); ++i)
+    result.tail<2>() += face.phase.col(i) * x[face.unknown[static_cast<std::size_t>(3 + i)]];
+  return result;
+}
+
+void Problem::add_gradient(const Face& face, const LocalVector& first, VectorXd& sum) const {
+  for (Index i = 0; i < 3; ++i) {
+    const Index unknown = face.unknown[static_cast<std::size_t>(i)];
+    if (unknown >= 0) sum[unknown] += amplitude_scale_ * first[i];
+  }
+  for (Index i = 0; i < face.phase.cols(); ++i)
+    sum[face.unknown[static_cast<std::size_t>(3 + i)]] += face.phase.col(i).dot(first.tail<2>());
+}
+
+double Problem::energy(const VectorXd& x) const {
+  double sum = 0;
+  for (const Face& face : faces_) sum += face.energy.value(local(face, x));
+  return sum;
+}
+
+double Problem::gradient(const VectorXd& x, VectorXd& first) const {
+  first = VectorXd::Zero(size_);
+  double sum = 0;
+  LocalVector gradient;
+  for (const Face& face : faces_) {
+    sum += face.energy.gradient(local(face, x), gradient);
+    add_gradient(face, gradient, first);
+  }
+  return sum;
+}
+
+double Problem::hessian(const VectorXd& x, VectorXd& first, Eigen::SparseMatrix<double>& second,
+                        Hessian kind) const {
+  first = VectorXd::Zero(size_);
+  std::fill_n(second.valuePtr(), second.nonZeros(), 0.0);
+  double sum = 0;
+  LocalVector gradient, scale;
+  scale << amplitude_scale_, amplitude_scale_, amplitude_scale_, frequency_scale_, frequency_scale_;
+  LocalMatrix hessian;
+  Eigen::MatrixXd map, part;
+  for (const Face& face : faces_) {
+    sum += face.energy.hessian(local(face, x), gradient, hessian);
+    add_gradient(face, gradient, first);
+    if (kind == Hessian::projected) project(hessian, scale);
+    const auto count = static_cast<Index>(face.unknown.size());
+    map.setZero(5, count);
+    for (Index i = 0; i < 3; ++i) map(i, i) = amplitude_scale_;
+    map.bottomRightCorner(2, count - 3) = face.phase;
+    part.noalias() = map.transpose() * (hessian * map);
+    std::size_t slot = 0;
+    for (Index i = 0; i < count; ++i) {
+      for (Index j = 0; j <= i; ++j, ++slot) {
+        // Two unknowns of a face are never the same one but on the diagonal (phase vertices of a triangle are
+        // distinct vertices).
+        if (face.slot[slot] >= 0) second.valuePtr()[face.slot[slot]] += part(i, j);
+      }
+    }
+  }
+  return sum;
+}
+
+double Problem::one_form_energy(const VectorXd& amplitude, const VectorXd& one_form, VectorXd& first) const {
+  first = VectorXd::Zero(size_);
+  double sum = 0;
+  LocalVector x, gradient;
+  for (const Face& face : faces_) {
+    for (std::size_t i = 0; i < 3; ++i) x[static_cast<Index>(i)] = amplitude[topology_.faces[face.face][i]];
+    const auto side = [&](std::size_t i) {
+      return side_sign(topology_, face.face, i) * one_form[side_edge(topology_, face.face, i)];
+    };
+    x.tail<2>() = forms_[face.face].rest.gradients * Eigen::Vector3d(0, side(0), side(0) + side(1));
+    sum += face.energy.gradient(x, gradient);
+    add_gradient(face, gradient, first);
+  }
+  return sum;
+}
+
+VectorXd Problem::one_form(const Waves& waves) const {
+  VectorXd result = VectorXd::Zero(static_cast<Index>(topology_.edges.size()));
+  for (const Face& face : faces_) {
+    const Eigen::Vector3d phase = complex_.corner_phases(face.face, waves.phase, waves.period);
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[side_edge(topology_, face.face, i)] =
+          side_sign(topology_, face.face, i) *
+          (phase[static_cast<Index>((i + 1) % 3)] - phase[static_cast<Index>(i)]);
+    }
+  }
+  return result;
+}
+
+}  // namespace plisse::wrinkle

@@ -1,0 +1,94 @@
+// The discrete wrinkle problem (39) in unknowns without equality constraints: amplitudes of the free
+// vertices, phases of the phase vertices, one period a loop.
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <vector>
+
+#include "wrinkle/energy.h"
+#include "wrinkle/phase_complex.h"
+
+namespace plisse::wrinkle {
+
+// A state.
+struct Waves {
+  Eigen::VectorXd amplitude;  // a, metres, one a base vertex, ≥ 0
+  Eigen::VectorXd phase;      // φ, radians, one a phase vertex
+  Eigen::VectorXd period;     // τ, radians, one a generator
+};
+
+class Problem {
+ public:
+  // wrinkle_free: one flag a face; those faces and their vertices have no amplitude and add no energy.
+  // clamped: one flag a vertex whose amplitude is 0 as well; may be empty.
+  Problem(shell::Topology topology, std::vector<FaceForms> forms, const Model& model,
+          std::vector<bool> wrinkle_free, std::vector<bool> clamped = {});
+
+  const shell::Topology& topology() const { return topology_; }
+  const std::vector<FaceForms>& forms() const { return forms_; }
+  const Model& model() const { return model_; }
+  const PhaseComplex& complex() const { return complex_; }
+  const std::vector<bool>& pinned() const { return pinned_; }  // one a vertex: a = 0
+  const std::vector<bool>& wrinkle_free() const { return wrinkle_free_; }
+
+  // Typical sizes that make unknowns dimensionless: the largest √(2s₀)/|ω| and |ω| of the live faces' own
+  // waves (start.h); never 0.
+  double amplitude_scale() const { return amplitude_scale_; }
+  double frequency_scale() const { return frequency_scale_; }
+
+  // Unknowns in one vector, all dimensionless: free amplitudes over the scale, phases, periods.
+  Eigen::Index size() const { return size_; }
+  Eigen::Index amplitude_count() const { return amplitude_count_; }
+  Eigen::Index phase_begin() const { return amplitude_count_; }
+  Eigen::Index period_begin() const {
+    return amplitude_count_ + static_cast<Eigen::Index>(complex_.vertices);
+  }
+  Eigen::VectorXd pack(const Waves& waves) const;
+  Waves unpack(const Eigen::VectorXd& x) const;
+
+  // Joules, over live faces, above their relaxed energy and without the base surface's own bending.
+  double energy(const Eigen::VectorXd& x) const;
+  double relaxed_energy() const { return relaxed_energy_; }  // J, of the live faces
+  double gradient(const Eigen::VectorXd& x, Eigen::VectorXd& first) const;
+  // The lower half, of a pattern that never changes: exact, or with every face's part projected to the
+  // nearest positive semidefinite one.
+  enum class Hessian { exact, projected };
+  double hessian(const Eigen::VectorXd& x, Eigen::VectorXd& first, Eigen::SparseMatrix<double>& second,
+                 Hessian kind) const;
+  // The pattern, zeros filled in.
+  const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+
+  // The same energy of amplitudes and a one-form (radians, one an edge) that need not be closed: each face
+  // takes its gradient from its first two sides, as section E.3 says. `first` by the unknowns of this
+  // problem.
+  double one_form_energy(const Eigen::VectorXd& amplitude, const Eigen::VectorXd& one_form,
+                         Eigen::VectorXd& first) const;
+  // ω of every edge; 0 where no live face touches it.
+  Eigen::VectorXd one_form(const Waves& waves) const;
+
+ private:
+  struct Face {
+    std::uint32_t face;
+    FaceEnergy energy;
+    std::vector<Eigen::Index> unknown;  // global, −1 where pinned; the first three are amplitudes
+    Eigen::Matrix<double, 2, Eigen::Dynamic> phase;  // dφ by the unknowns from the fourth on
+    std::vector<Eigen::Index> slot;  // of pattern_.valuePtr(), lower half by rows; −1 where none
+  };
+  LocalVector local(const Face& face, const Eigen::VectorXd& x) const;
+  void add_gradient(const Face& face, const LocalVector& first, Eigen::VectorXd& sum) const;
+
+  shell::Topology topology_;
+  std::vector<FaceForms> forms_;
+  Model model_;
+  std::vector<bool> wrinkle_free_, pinned_;
+  PhaseComplex complex_;
+  std::vector<Eigen::Index> amplitude_unknown_;  // of a vertex, −1 where pinned
+  Eigen::Index amplitude_count_ = 0, size_ = 0;
+  double relaxed_energy_ = 0;
+  double amplitude_scale_ = 1, frequency_scale_ = 1;
+  std::vector<Face> faces_;
+  Eigen::SparseMatrix<double> pattern_;
+};
+
+}  // namespace plisse::wrinkle

@@ -1,0 +1,43 @@
+// Minimises the wrinkle energy (39): Newton's method with bounds on the amplitudes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wrinkle/problem.h"
+
+namespace plisse::wrinkle {
+
+struct SolveOptions {
+  int max_iterations = 500;
+  double kkt = 1e-6;           // stop where the scaled residual is at most this
+  bool fixed_periods = false;  // periods stay as they are
+};
+
+struct SolveStep {
+  int iteration = 0;
+  double seconds = 0;  // since the solve began
+  double energy = 0;   // J, as Solution::energy
+};
+
+struct Solution {
+  Waves waves;
+  double start_energy = 0, energy = 0;  // J, (27) over the live faces: relaxed energy included
+  double kkt = 0;                       // scaled residual, see kkt_residual
+  int iterations = 0;
+  bool converged = false;
+  std::string reason;  // one phrase
+  std::vector<SolveStep> trace;
+};
+
+// The largest of |a_s ∂E/∂a_v|, |∂E/∂φ_i| and |∂E/∂τ_k| over the unknowns that can move, divided by E, the
+// energy above the relaxed one, where
+// a_s is the largest amplitude of the state (the problem's scale where all are 0); of ∂E/∂a_v at a_v = 0
+// only what is negative counts. Dimensionless: E changes by less than this part of itself when the largest
+// wave changes by its own height, or one phase by a radian. `first`: dE by the problem's unknowns.
+double kkt_residual(const Problem& problem, const Eigen::VectorXd& x, double energy,
+                    const Eigen::VectorXd& first, bool fixed_periods = false);
+
+Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options = {});
+
+}  // namespace plisse::wrinkle
