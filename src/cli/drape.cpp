@@ -42,6 +42,11 @@ struct Arguments {
                    described("Share of its stiffness that slack cloth keeps, 0 to 1: spreads compression "
                              "that tension field theory leaves undetermined; 1e-4 is little"))
         ->type_name("ETA");
+    app.add_option(
+           "--perturb", perturb,
+           described("Move the start at random by up to this length, so that what can buckle does; default: "
+                     "a tenth of the thickness with stvk, else 0"))
+        ->type_name("LENGTH");
     app.add_option("--start", start, "An OBJ with the positions to start from, vertex by vertex")
         ->type_name("FILE");
     app.add_option("--frames", frames,
@@ -62,8 +67,8 @@ struct Arguments {
   }
 
   CommonArguments common;
-  std::string input, example, vertices, seed, model, residual, start, frames, output = "base.ply", tolerance,
-                                                                              iterations;
+  std::string input, example, vertices, seed, model, residual, perturb, start, frames, output = "base.ply",
+                                                                                       tolerance, iterations;
   bool list = false;
 };
 
@@ -100,6 +105,15 @@ DrapeScene scene_of(const Arguments& arguments) {
     const bool stvk = arguments.model == "stvk";
     scene.stretching = stvk ? shell::Stretching::stvk : shell::Stretching::tension_field;
     scene.bending = stvk ? shell::Bending::midedge : shell::Bending::quadratic;
+  }
+  if (scene.stretching == shell::Stretching::stvk) scene.perturb = 0.1 * scene.material.thickness;
+  if (!arguments.perturb.empty()) {
+    const auto length = parse_length(arguments.perturb);
+    if (!length || !(*length >= 0 && *length <= 1e6))
+      throw Error(ExitCode::bad_input,
+                  fmt::format("--perturb: '{}' is no length; allowed: 0 or more, in metres or with {}",
+                              arguments.perturb, length_units));
+    scene.perturb = *length;
   }
   if (!arguments.residual.empty()) scene.residual = number_in("--residual", arguments.residual, 0, 1);
   if (!arguments.tolerance.empty())

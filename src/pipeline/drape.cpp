@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <random>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -41,6 +42,21 @@ shell::Shell shell_of(const DrapeScene& scene) {
   shell.bending = scene.bending;
   shell.residual = scene.residual;
   return shell;
+}
+
+// A flat St. Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing
+// disturbs it.
+Positions perturbed(const DrapeScene& scene) {
+  Positions positions = scene.start;
+  if (scene.perturb == 0) return positions;
+  const shell::Conditions conditions = scene.conditions(0);
+  std::mt19937 random(1);
+  for (Eigen::Index v = 0; v < positions.cols(); ++v)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = static_cast<double>(random()) / 2147483647.5 - 1;  // −1 … 1, the same everywhere
+      if (!conditions.held(axis, v)) positions(axis, v) += scene.perturb * share;
+    }
+  return positions;
 }
 
 std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame) {
@@ -103,7 +119,7 @@ DrapeReport drape(const DrapeRequest& request) {
   DrapeReport report;
   report.vertices = shell.topology.vertex_count;
   report.faces = shell.topology.faces.size();
-  Positions positions = scene.start;
+  Positions positions = perturbed(scene);
   std::vector<Positions> cache;
   for (int n = from_start ? 1 : scene.frames; n <= picked.back() && !report.interrupted; ++n) {
     DrapeFrame frame;

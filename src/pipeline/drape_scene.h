@@ -27,6 +27,7 @@ struct DrapeScene {
   shell::Stretching stretching = shell::Stretching::tension_field;
   shell::Bending bending = shell::Bending::quadratic;
   double residual = 0;
+  double perturb = 0;  // m: free coordinates of the start are moved at random by up to this much
   shell::Loads loads;
   // What is held, at load t in 0 … 1. The same coordinates are held for every t.
   std::function<shell::Conditions(double t)> conditions;
