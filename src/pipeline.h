@@ -137,6 +137,33 @@ struct ExportReport {
 // cache counts the vertices as an OBJ of the same scene and levels does.
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame);
 
+struct BakeRequest {
+  SceneSettings scene;
+  std::string output;  // a folder
+  bool height = true, normal = true;
+  int texture_size = 2048;
+  bool green_up = true;  // of the normal map; false: DirectX's
+  int device = -1;
+  std::string shader_folder;
+};
+
+struct BakeReport {
+  struct Output {
+    std::string path, kind;  // height | normal
+    int frame = 0;
+  };
+  std::vector<Output> outputs;
+  double scale_m = 0;                        // the height of white in height's PNG, minus that of black
+  std::size_t covered = 0, overlapping = 0;  // texels
+  bool interrupted = false;
+  double wall_s = 0;
+};
+
+// The wrinkles of each frame over the uv of those parts that wrinkle: heights along the posed mesh's normals
+// (EXR in metres, and a PNG to look at), and normals in its MikkTSpace basis. Throws Error(bad_input) where
+// uv is missing or leaves 0…1; islands that overlap are a warning.
+BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame);
+
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.
 double default_wavelength(const Surface& surface);

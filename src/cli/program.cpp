@@ -59,7 +59,7 @@ int run(int argc, const char* const* argv) {
 
   const std::vector<Command> commands = {add_render(program), add_info(program), add_init(program),
                                          add_verify(program), add_size(program), add_paint(program),
-                                         add_export(program), add_drape(program)};
+                                         add_export(program), add_bake(program), add_drape(program)};
   std::vector<std::string> names;
   for (const Command& command : commands) {
     command.app->allow_extras();

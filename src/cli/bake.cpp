@@ -1,0 +1,124 @@
+// plisse bake: the wrinkles of frames as height and normal maps.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/suggest.h"
+#include "pipeline.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app)
+      : scene(app, [](const std::string& option) { return decides_geometry(option); }),
+        device(app),
+        common(app) {
+    app.add_option("-o,--output", output, "The folder for height_####.exr and .png and normal_####.png")
+        ->type_name("DIR");
+    app.add_option("--maps", maps, "height, normal, or both with a comma, which is the default")
+        ->type_name("NAMES")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--texture-size", texture_size, "Side of the maps in texels, 16 … 16384; default: 2048")
+        ->type_name("N");
+    app.add_option(
+           "--green", green,
+           described("Which way the normal map's green points: up (Blender, glTF, OpenGL; the default) "
+                     "or down (DirectX)"))
+        ->type_name("up|down");
+    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
+  }
+
+  BakeRequest request() const {
+    BakeRequest request;
+    request.scene = scene.settings();
+    request.output = output;
+    const std::vector<std::string> names{"height", "normal"};
+    for (const std::string& map : maps) {
+      if (map != "height" && map != "normal") {
+        throw Error(ExitCode::bad_input,
+                    fmt::format("--maps {}: there is no such map{}; there are: height, normal", map,
+                                did_you_mean(map, names)));
+      }
+    }
+    const auto wanted = [&](const char* map) {
+      return maps.empty() || std::find(maps.begin(), maps.end(), map) != maps.end();
+    };
+    request.height = wanted("height");
+    request.normal = wanted("normal");
+    if (!texture_size.empty()) request.texture_size = whole_number("--texture-size", texture_size, 16, 16384);
+    if (green != "up" && green != "down")
+      throw Error(ExitCode::bad_input, fmt::format("--green: '{}'; allowed: up or down", green));
+    request.green_up = green == "up";
+    request.device = device.device();
+    request.shader_folder = shaders;
+    return request;
+  }
+
+  SceneArguments scene;
+  DeviceArguments device;
+  CommonArguments common;
+  std::string output, texture_size, green = "up", shaders;
+  std::vector<std::string> maps;
+};
+
+ordered_json to_json(const BakeReport& report) {
+  ordered_json outputs = ordered_json::array();
+  for (const auto& output : report.outputs)
+    outputs.push_back({{"path", output.path}, {"kind", output.kind}, {"frame", output.frame}});
+  return {{"outputs", outputs},
+          {"scale_m", report.scale_m},
+          {"covered", report.covered},
+          {"overlapping", report.overlapping},
+          {"interrupted", report.interrupted},
+          {"wall_s", report.wall_s}};
+}
+
+int run_bake(Arguments& arguments) {
+  arguments.common.apply();
+  if (arguments.device.list_wanted()) {
+    arguments.device.list();
+    return 0;
+  }
+  const BakeRequest request = arguments.request();
+  install_interrupt_handlers();
+  BakeReport report;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    report = bake_maps(request, frame_progress(progress));
+  }
+  log::notice(fmt::format("{} files in {:.2f} s; black and white of height's PNG are ∓{:.4g} mm → {}",
+                          report.outputs.size(), report.wall_s, 1000 * report.scale_m, request.output));
+  write_report(to_json(report), arguments.common.json());
+  if (report.interrupted) return 128 + signal_number();
+  return 0;
+}
+
+}  // namespace
+
+Command add_bake(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("bake", "Write the wrinkles of frames as maps over the model's uv");
+  app->footer(
+      "\nplisse bake scene.toml --frames 48 -o maps --texture-size 4096\n"
+      "For the posed mesh without wrinkles: plisse export scene.toml --frames 48 --levels 0 --strength 0 -o "
+      "mesh.glb");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_bake(*arguments); }};
+}
+
+}  // namespace plisse::cli

@@ -1,0 +1,29 @@
+// Which point of the surface each texel of a texture belongs to.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "mesh/surface.h"
+
+namespace plisse {
+
+// size² entries, row 0 at the top of the picture (v = 1).
+struct UvRaster {
+  static constexpr std::int64_t none = -1;
+  int size = 0;
+  std::vector<std::int64_t> triangle;   // of the texel's middle; `none` outside of all islands
+  std::vector<glm::dvec3> barycentric;  // in that triangle
+  // Where the texel's value comes from: itself, a texel of an island at most `widened` texels away, or
+  // `none`. So filters that reach over an island's rim find nothing foreign there.
+  std::vector<std::int64_t> source;
+  std::size_t covered = 0, overlapping = 0;  // texels of islands, and those of more than one place
+};
+
+// All triangles of the parts that wrinkle. A texel of several places goes to the first. Throws
+// Error(bad_input) where none of them has uv, or where uv leaves 0…1.
+UvRaster uv_raster(const Surface& surface, int size, int widened);
+
+}  // namespace plisse

@@ -1,0 +1,206 @@
+// plisse bake: the wrinkles of a frame as maps over the model's own uv, for the coarse mesh to wear.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "config/frames.h"
+#include "io/exr.h"
+#include "io/png.h"
+#include "mesh/tangents.h"
+#include "mesh/uv_raster.h"
+#include "pipeline.h"
+#include "pipeline/reference_scene.h"
+#include "pipeline/visit_frames.h"
+#include "reference/displacement.h"
+
+namespace plisse {
+namespace {
+
+constexpr int widened = 16;  // texels: four levels of mip maps
+
+glm::dvec3 to_glm(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// What the maps hold at one texel.
+struct Texel {
+  double height = 0;           // metres
+  glm::dvec3 normal{0, 0, 1};  // in the tangent basis, unit
+};
+
+// One number for render vertices with the same place, normal and uv: MikkTSpace takes them for one.
+std::vector<std::uint32_t> tangent_vertices(const Surface& surface) {
+  using Key = std::pair<std::uint32_t, std::array<float, 5>>;
+  std::map<Key, std::uint32_t> numbers;
+  std::vector<std::uint32_t> of;
+  for (const RenderVertex& v : surface.render_vertices) {
+    const Key key{v.welded, {v.normal.x, v.normal.y, v.normal.z, v.uv.x, v.uv.y}};
+    of.push_back(numbers.try_emplace(key, static_cast<std::uint32_t>(numbers.size())).first->second);
+  }
+  return of;
+}
+
+class Baker {
+ public:
+  Baker(const pipeline::LoadedScene& scene, int size)
+      : scene_(scene),
+        reference_(scene),
+        profile_(pipeline::reference_profile(scene)),
+        raster_(uv_raster(scene.surface(), size, widened)),
+        vertices_(tangent_vertices(scene.surface())) {}
+
+  const UvRaster& raster() const { return raster_; }
+
+  // One a texel of the raster; those outside of all islands stay flat.
+  std::vector<Texel> at(const pipeline::WaveSnapshot& snapshot) const {
+    const auto triangles = pipeline::reference_triangles(reference_, snapshot);
+    const std::vector<CornerTangent> tangents = mikktspace(corners(triangles));
+    const auto blend =
+        scene_.settings.shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
+    std::vector<Texel> texels(raster_.triangle.size());
+    tbb::parallel_for(std::size_t{0}, texels.size(), [&](std::size_t i) {
+      if (raster_.triangle[i] == UvRaster::none) return;
+      const auto t = static_cast<std::size_t>(raster_.triangle[i]);
+      const reference::Triangle& triangle = triangles[t];
+      Eigen::Matrix3d directions;
+      for (int c = 0; c < 3; ++c)
+        directions.col(c) = snapshot.frames.normal.col(
+            static_cast<Eigen::Index>(triangle.welded[static_cast<std::size_t>(c)]));
+      const glm::dvec3 b = raster_.barycentric[i];
+      const auto point = reference::displace(triangle, directions, {b.x, b.y, b.z}, profile_, blend, 0);
+      texels[i] = {point.height * scene_.units.metres,
+                   in_basis(to_glm(point.normal), &tangents[3 * t], triangle.normals, b)};
+    });
+    return texels;
+  }
+
+ private:
+  std::vector<TangentCorner> corners(const std::vector<reference::Triangle>& triangles) const {
+    const Surface& surface = scene_.surface();
+    std::vector<TangentCorner> result;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t id = surface.triangles[3 * t + static_cast<std::size_t>(c)];
+        result.push_back({vertices_[id], to_glm(triangles[t].waves.corners.col(c)),
+                          to_glm(triangles[t].normals.col(c)), glm::dvec2(surface.render_vertices[id].uv)});
+      }
+    }
+    return result;
+  }
+
+  // The components from which a renderer gets this normal back: it interpolates tangent and normal and makes
+  // neither unit.
+  static glm::dvec3 in_basis(const glm::dvec3& normal, const CornerTangent* corner,
+                             const Eigen::Matrix3d& normals, const glm::dvec3& b) {
+    const glm::dvec3 tangent = b.x * corner[0].tangent + b.y * corner[1].tangent + b.z * corner[2].tangent;
+    const glm::dvec3 n = to_glm(normals * Eigen::Vector3d(b.x, b.y, b.z));
+    const glm::dmat3 basis(tangent, corner[0].sign * glm::cross(n, tangent), n);
+    if (!(std::abs(glm::determinant(basis)) > 1e-9)) return {0, 0, 1};
+    glm::dvec3 m = glm::inverse(basis) * normal;
+    m.z = std::max(m.z, 0.0);  // a map holds nothing that looks inward
+    const double length = glm::length(m);
+    return length > 0 ? m / length : glm::dvec3(0, 0, 1);
+  }
+
+  const pipeline::LoadedScene& scene_;
+  pipeline::ReferenceScene reference_;
+  reference::Profile profile_;
+  UvRaster raster_;
+  std::vector<std::uint32_t> vertices_;
+};
+
+// The largest height that any frame could have, metres: what the viewable map's black and white stand for.
+double largest_height(const pipeline::LoadedScene& scene) {
+  double waves = 0, field = 0;
+  for (std::size_t v = 0; v < scene.waves.wavelength.size(); ++v)
+    waves = std::max(waves, scene.waves.mask[v] * scene.waves.wavelength[v] / 4);
+  for (const FieldTriangle& triangle : scene.waves.field)
+    for (const double a : triangle.amplitude) field = std::max(field, a);
+  return waves + field;
+}
+
+std::uint8_t byte(double x) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
+}
+
+// A picture of the maps' texels, islands widened; `shown` gives 0…1.
+template <typename Shown>
+io::Image picture(const UvRaster& raster, const std::vector<Texel>& texels, const Shown& shown) {
+  io::Image image{raster.size, raster.size, {}};
+  image.rgba.reserve(4 * texels.size());
+  for (const std::int64_t source : raster.source) {
+    const glm::dvec3 value =
+        shown(source == UvRaster::none ? Texel{} : texels[static_cast<std::size_t>(source)]);
+    image.rgba.insert(image.rgba.end(), {byte(value.x), byte(value.y), byte(value.z), 255});
+  }
+  return image;
+}
+
+void check_request(const BakeRequest& request) {
+  if (request.output.empty()) throw Error(ExitCode::bad_input, "plisse bake: name the folder with -o");
+  if (!request.height && !request.normal)
+    throw Error(ExitCode::bad_input, "--maps: none named; there are: height, normal");
+}
+
+}  // namespace
+
+BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) {
+  const auto started = std::chrono::steady_clock::now();
+  check_request(request);
+  pipeline::LoadedScene scene(request.scene);
+  const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
+  const Baker baker(scene, request.texture_size);
+  const UvRaster& raster = baker.raster();
+  BakeReport report;
+  report.scale_m = largest_height(scene);
+  report.covered = raster.covered;
+  report.overlapping = raster.overlapping;
+  if (raster.overlapping > 0) {
+    log::warn(fmt::format(
+        "{:.1f} % of the texels with cloth belong to several places of it, whose wrinkles differ; "
+        "the map has the first one's",
+        100.0 * static_cast<double>(raster.overlapping) / static_cast<double>(raster.covered)));
+  }
+  const double scale = std::max(report.scale_m, 1e-30), green = request.green_up ? 1 : -1;
+  const std::filesystem::path folder = request.output;
+  report.interrupted = !pipeline::visit_frames(
+      scene, frames, {request.device, request.shader_folder}, on_frame,
+      [&](int frame, const passes::SurfaceBuffers& surface) {
+        const std::vector<Texel> texels = baker.at(pipeline::read_snapshot(surface));
+        const auto path = [&](const char* kind, const char* ending) {
+          const auto named = folder / fmt::format("{}_{:04}{}", kind, frame, ending);
+          report.outputs.push_back({named.string(), kind, frame});
+          return named;
+        };
+        if (request.height) {
+          std::vector<float> metres;
+          metres.reserve(texels.size());
+          for (const std::int64_t source : raster.source)
+            metres.push_back(source == UvRaster::none
+                                 ? 0
+                                 : static_cast<float>(texels[static_cast<std::size_t>(source)].height));
+          io::write_exr(path("height", ".exr"), raster.size, raster.size, 1, metres);
+          io::write_png(path("height", ".png"), picture(raster, texels, [&](const Texel& texel) {
+                          return glm::dvec3(0.5 + 0.5 * texel.height / scale);
+                        }));
+        }
+        if (request.normal) {
+          io::write_png(path("normal", ".png"), picture(raster, texels, [&](const Texel& texel) {
+                          return 0.5 +
+                                 0.5 * glm::dvec3(texel.normal.x, green * texel.normal.y, texel.normal.z);
+                        }));
+        }
+        return folder.string();
+      });
+  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return report;
+}
+
+}  // namespace plisse
