@@ -149,7 +149,8 @@ class Search {
     // No vertex goes farther than half of the whole at once: what is slack has no idea of scale.
     const double longest = direction.cwiseAbs().maxCoeff();
     if (step * longest > 0.5 * extent_) step = 0.5 * extent_ / longest;
-    const double rounding = 1e-15 * value.terms;
+    // Energies are sums of a term a face, whose rounding adds up like a random walk.
+    const double rounding = 1e-16 * (10 + std::sqrt(static_cast<double>(gradient.size()))) * value.terms;
     Positions x;
     VectorXd new_gradient;
     for (int halving = 0; halving < 60; ++halving, step *= 0.5) {
@@ -177,17 +178,18 @@ class Search {
 
   // No step down the Newton direction: once more with concave parts left out, then with shifts; then give up.
   bool stalled(const Potential::Value& value, const VectorXd& gradient) {
-    if (exact_) {
+    const double share = value.force_scale > 0 ? gradient.cwiseAbs().maxCoeff() / value.force_scale : 0;
+    // What rounding of positions leaves of forces that cancel.
+    const bool balanced = share <= std::max(1e-6, settings_.tolerance);
+    if (exact_ && !balanced) {
       exact_ = false;
       return false;
     }
-    if (++stalls_ < 4) {
+    if (!balanced && ++stalls_ < 4) {
       shift_ = std::max(100 * shift_, 1e3 * least_shift_);
       return false;
     }
-    const double share = value.force_scale > 0 ? gradient.cwiseAbs().maxCoeff() / value.force_scale : 0;
-    // What rounding of positions leaves of forces that cancel.
-    result_.converged = share <= std::max(1e-6, settings_.tolerance);
+    result_.converged = balanced;
     result_.reason = fmt::format(
         "double precision leaves nothing to gain; forces balance to {:.1e} of those that meet", share);
     return true;

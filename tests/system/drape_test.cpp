@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <csignal>
 
 #include "io/ply.h"
 #include "system/plisse.h"
@@ -70,6 +71,22 @@ TEST(Drape, StoppingShortIsOneAndMarked) {
   EXPECT_FALSE(json["converged"].get<bool>());
   EXPECT_THAT(json["reason"].get<std::string>(), HasSubstr("limit of 1 iterations"));
   EXPECT_THAT(io::read_ply(base).comments, ::testing::Contains(HasSubstr("not converged")));
+}
+
+// Some thousand small steps: the signal comes after the first of them.
+TEST(Drape, AnInterruptLeavesTheLastGoodState) {
+  const TemporaryFolder folder;
+  const std::string base = (folder / "base.ply").string(), report = (folder / "report.json").string();
+  const Outcome outcome = interrupt_program_saying(
+      program_path(),
+      {"drape", "--example", "cantilever", "--vertices", "3000", "-v", "-o", base, "--json", report}, SIGINT,
+      "step 1:");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_THAT(io::read_ply(base).comments,
+              ::testing::Contains(HasSubstr("not converged: it was interrupted")));
+  const auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_TRUE(json["interrupted"].get<bool>());
+  EXPECT_FALSE(json["converged"].get<bool>());
 }
 
 TEST(Drape, RefusesWhatMakesNoSense) {
