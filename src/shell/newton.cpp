@@ -43,7 +43,7 @@ class Search {
 
   Equilibrium run() {
     VectorXd gradient;
-    Potential::Value value = measure(result_.positions, &gradient);
+    Potential::Value value = potential_.value(result_.positions, &gradient);
     if (!std::isfinite(value.energy) || !gradient.allFinite())
       throw Error(ExitCode::bad_input,
                   "the start has no finite energy: positions are too large or too close to an obstacle");
@@ -61,10 +61,7 @@ class Search {
         if (stalled(value, gradient)) break;
         continue;
       }
-      shift_ = step > 0.5   ? (shift_ > 4 * least_shift_ ? 0.1 * shift_ : 0)
-               : step < 0.1 ? std::max(4 * shift_, least_shift_)
-                            : shift_;
-      exact_ = step > 0.5;
+      adapt(step);
       ++result_.iterations;
       note(result_.iterations, value, gradient, step, shift_);
       if (progress_ && !progress_(result_.trace.back(), result_.positions)) {
@@ -76,10 +73,18 @@ class Search {
   }
 
  private:
-  Potential::Value measure(const Positions& x, VectorXd* gradient) { return potential_.value(x, gradient); }
-
   double allowed(const Potential::Value& value) const {
     return std::max(settings_.tolerance * value.force_scale, rounding_force_);
+  }
+
+  // A whole step earns trust in the quadratic model: the exact Hessian next time, and less of a shift.
+  void adapt(double step) {
+    exact_ = step > 0.5;
+    if (exact_) {
+      shift_ = shift_ > 4 * least_shift_ ? 0.1 * shift_ : 0;
+    } else if (step < 0.1) {
+      shift_ = std::max(4 * shift_, least_shift_);
+    }
   }
 
   void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
@@ -156,7 +161,7 @@ class Search {
     for (int halving = 0; halving < 60; ++halving, step *= 0.5) {
       x = result_.positions;
       potential_.advance(x, direction, step);
-      const Potential::Value there = measure(x, &new_gradient);
+      const Potential::Value there = potential_.value(x, &new_gradient);
       if (!std::isfinite(there.energy) || !new_gradient.allFinite()) continue;
       const bool falls = there.energy <= value.energy + 1e-4 * step * slope;
       // Where the expected fall is lost in rounding the forces decide.

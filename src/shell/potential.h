@@ -38,7 +38,6 @@ class Potential {
   // The longest step ≤ 1 along a direction in which no vertex moves further than it safely may beside
   // obstacles: by the distance to one, or half of a body's own size where it is farther.
   double safe_step(const Positions& x, const Eigen::VectorXd& direction) const;
-  const Loads& loads() const { return loads_; }
 
  private:
   struct Block {  // of two vertices, rows ≥ columns in the order of elimination
