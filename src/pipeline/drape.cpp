@@ -126,7 +126,10 @@ DrapeReport drape(const DrapeRequest& request) {
     frame.frame = n;
     frame.load = scene.frames > 1 ? static_cast<double>(n - 1) / (scene.frames - 1) : 1;
     const shell::Conditions conditions = scene.conditions(frame.load);
-    const Positions start = shell::carried(shell, conditions, positions);
+    // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
+    // moves.
+    const Positions start =
+        scene.loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
     frame.equilibrium = shell::find_equilibrium(shell, conditions, scene.loads, start, scene.newton,
                                                 [&](const shell::NewtonStep& step, const Positions&) {
                                                   if (request.progress)

@@ -136,6 +136,30 @@ TEST(Drape, SceneFiles) {
   EXPECT_NEAR(high, -0.05, 1e-12);
 }
 
+// A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top.
+TEST(Drape, ClothIsNotCarriedThroughObstacles) {
+  const TemporaryFolder folder;
+  write_text(folder / "over.toml",
+             "[drape]\npanel = [0.4, 0.4]\nvertices = 150\nplane = \"xz\"\n"
+             "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n"
+             "[[hold]]\nbox = [[-0.001, -1, -1], [0.001, 1, 1]]\nmove = [0.05, -0.35, 0]\n"
+             "[[hold]]\nbox = [[0.399, -1, -1], [0.401, 1, 1]]\nmove = [-0.05, -0.35, 0]\n"
+             "[[obstacle]]\nkind = \"sphere\"\nat = [0.2, -0.11, -0.2]\nradius = \"10 cm\"\n");
+  const std::string base = (folder / "base.ply").string();
+  const Outcome outcome = plisse({"drape", (folder / "over.toml").string(), "-o", base});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const io::Ply ply = io::read_ply(base);
+  const auto* vertex = ply.find("vertex");
+  double high = -1;
+  for (std::size_t v = 0; v < vertex->count; ++v) {
+    const double x = vertex->find("x")->values[v] - 0.2, y = vertex->find("y")->values[v] + 0.11,
+                 z = vertex->find("z")->values[v] + 0.2;
+    EXPECT_GT(std::sqrt(x * x + y * y + z * z), 0.1);
+    high = std::max(high, y);
+  }
+  EXPECT_GT(high, 0.09);  // over its top, near the pole
+}
+
 TEST(Drape, AuthorsSetUp) {
   const auto setup = shared_data("tfw-disk/elastic/disk_elastic.json");
   if (!std::filesystem::exists(setup)) GTEST_SKIP() << setup << " is not there";
