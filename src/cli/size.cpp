@@ -153,6 +153,18 @@ ordered_json to_json(const SizeReport& report) {
   }
   for (const auto& file : report.files)
     outputs.push_back({{"path", file.string()}, {"kind", file.extension().string()}});
+  ordered_json garment = nullptr;
+  if (report.garment) {
+    ordered_json seams = ordered_json::array();
+    for (const auto& seam : report.garment->seams)
+      seams.push_back({{"name", seam.name},
+                       {"length_a_m", seam.length_a},
+                       {"length_b_m", seam.length_b},
+                       {"edges", seam.edges},
+                       {"gap_m", seam.gap}});
+    garment = {
+        {"vertices", report.garment->vertices}, {"triangles", report.garment->triangles}, {"seams", seams}};
+  }
   return {{"features", features},
           {"vertices", vertices},
           {"triangles", triangles},
@@ -163,6 +175,7 @@ ordered_json to_json(const SizeReport& report) {
           {"sample_s", sample},
           {"triangulate_s", triangulate},
           {"panels", panels},
+          {"garment", garment},
           {"outputs", outputs}};
 }
 
@@ -183,6 +196,14 @@ std::string table(const SizeReport& report) {
         "expected\n",
         100 * panel.quality.edges_within, panel.quality.least_angle,
         static_cast<double>(panel.vertices) / panel.quality.expected_vertices);
+  }
+  if (report.garment) {
+    text += fmt::format("\ngarment: {} vertices, {} triangles\n", report.garment->vertices,
+                        report.garment->triangles);
+    for (const auto& seam : report.garment->seams)
+      text += padded(fmt::format("  {}", seam.name), 28) +
+              fmt::format("{} edges; {:.1f} mm sewn to {:.1f} mm\n", seam.edges, 1e3 * seam.length_a,
+                          1e3 * seam.length_b);
   }
   return text;
 }

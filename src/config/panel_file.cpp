@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -167,6 +168,14 @@ class PanelReader {
     } else if (panels) {
       reader.complain(*panels, "panel", "is no table; write [[panel]] and its keys below");
     }
+    if (const toml::node* seams = reader.node("seam")) {
+      if (!seams->is_array_of_tables()) {
+        reader.complain(*seams, "seam", "is no list of tables; write [[seam]] and its keys below");
+      } else {
+        for (const toml::node& seam : *seams->as_array()) read_seam(*seam.as_table(), metres);
+      }
+    }
+    if (!any_placed_) file_.garment.placements.clear();
     reader.finish();
   }
 
@@ -280,6 +289,17 @@ class PanelReader {
     reader.finish();
   }
 
+  static bool point_of(const TableReader& reader, const toml::node& node, dvec2& point) {
+    const toml::array* pair = node.as_array();
+    if (!pair || pair->size() != 2) return false;
+    for (int i = 0; i < 2; ++i) {
+      const auto length = reader.length_of(*pair->get(static_cast<std::size_t>(i)));
+      if (!length || !std::isfinite(*length)) return false;
+      point[i] = *length;
+    }
+    return true;
+  }
+
   std::optional<std::vector<dvec2>> points(TableReader& reader, const std::string& key,
                                            const toml::node& node) {
     std::vector<dvec2> result;
@@ -289,11 +309,9 @@ class PanelReader {
     };
     if (!node.is_array()) return wrong(node);
     for (const toml::node& item : *node.as_array()) {
-      const toml::array* pair = item.as_array();
-      if (!pair || pair->size() != 2) return wrong(item);
-      const auto x = reader.length_of(*pair->get(0)), y = reader.length_of(*pair->get(1));
-      if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return wrong(item);
-      result.emplace_back(*x, *y);
+      dvec2 point(0);
+      if (!point_of(reader, item, point)) return wrong(item);
+      result.push_back(point);
     }
     return result;
   }
@@ -357,7 +375,7 @@ class PanelReader {
 
   void read_panel(const toml::table& table, double metres, const sizing::Fabric* common) {
     sizing::Panel panel;
-    panel.name = fmt::format("panel{}", file_.panels.size() + 1);
+    panel.name = fmt::format("panel{}", file_.garment.panels.size() + 1);
     TableReader reader(table, "[[panel]]", metres, complaints_);
     reader.text("name", panel.name);
     if (panel.name.empty() || panel.name.find_first_of("/\\\n") != std::string::npos ||
@@ -391,8 +409,94 @@ class PanelReader {
           read_feature(*feature.as_table(), metres, panel);
       }
     }
+    read_placement(reader);
     reader.finish();
-    file_.panels.push_back(std::move(panel));
+    file_.garment.panels.push_back(std::move(panel));
+  }
+
+  // 'translation' and 'rotation': degrees round x, then y, then z, axes that do not turn with the panel.
+  void read_placement(TableReader& reader) {
+    sizing::Placement placement;
+    const auto three = [&](const char* key, const char* allowed, auto value_of) -> std::optional<glm::dvec3> {
+      const toml::node* node = reader.node(key);
+      if (!node) return std::nullopt;
+      any_placed_ = true;
+      const toml::array* numbers = node->as_array();
+      glm::dvec3 result(0);
+      for (int i = 0; i < 3; ++i) {
+        const std::optional<double> value = numbers && numbers->size() == 3
+                                                ? value_of(*numbers->get(static_cast<std::size_t>(i)))
+                                                : std::nullopt;
+        if (!value || !std::isfinite(*value)) {
+          reader.complain(*node, key, fmt::format("is no such thing; allowed: {}", allowed));
+          return std::nullopt;
+        }
+        result[i] = *value;
+      }
+      return result;
+    };
+    const auto length = [&](const toml::node& node) { return reader.length_of(node); };
+    if (const auto at = three("translation", "[x, y, z], lengths", length)) placement.translation = *at;
+    const auto degrees = [](const toml::node& node) { return node.value<double>(); };
+    if (const auto turn = three("rotation", "[x, y, z], degrees", degrees))
+      placement.rotation = sizing::turned_by(*turn);
+    file_.garment.placements.push_back(placement);
+  }
+
+  void read_seam(const toml::table& table, double metres) {
+    sizing::Seam seam;
+    seam.name = fmt::format("seam{}", file_.garment.seams.size() + 1);
+    TableReader reader(table, "[[seam]]", metres, complaints_);
+    reader.text("name", seam.name);
+    const bool good = read_side(reader, "a", metres, seam.a) & read_side(reader, "b", metres, seam.b);
+    reader.finish();
+    if (good) file_.garment.seams.push_back(std::move(seam));
+  }
+
+  bool read_side(TableReader& seam, const char* key, double metres, sizing::SeamSide& side) {
+    constexpr const char* allowed = "{ panel = NAME, from = [x, y], to = [x, y], long_way = true or false }";
+    const toml::node* node = seam.needed(key, allowed);
+    if (!node) return false;
+    if (!node->is_table()) {
+      seam.complain(*node, key, fmt::format("is no table; allowed: {}", allowed));
+      return false;
+    }
+    TableReader reader(*node->as_table(), fmt::format("the seam's '{}'", key), metres, complaints_);
+    std::string name;
+    bool good = reader.needed("panel", "the name of a panel") != nullptr;
+    reader.text("panel", name);
+    const auto& panels = file_.garment.panels;
+    const auto found = std::find_if(panels.begin(), panels.end(),
+                                    [&](const sizing::Panel& panel) { return panel.name == name; });
+    if (found != panels.end()) {
+      side.panel = static_cast<std::size_t>(found - panels.begin());
+    } else if (good) {
+      std::vector<std::string> names;
+      for (const sizing::Panel& panel : panels) names.push_back(panel.name);
+      reader.complain(*node->as_table()->get("panel"), "panel",
+                      fmt::format("there is no panel '{}'; allowed: {}{}", name, config::either(names),
+                                  did_you_mean(name, names)));
+      good = false;
+    }
+    const auto point = [&](const char* end, dvec2& value) {
+      const toml::node* given = reader.needed(end, "a point [x, y] of the panel's outline");
+      if (!given) return false;
+      if (!point_of(reader, *given, value)) {
+        reader.complain(*given, end, "is no point; allowed: [x, y], two lengths");
+        return false;
+      }
+      return true;
+    };
+    good &= point("from", side.from);
+    good &= point("to", side.to);
+    if (const toml::node* given = reader.node("long_way")) {
+      if (given->is_boolean())
+        side.long_way = *given->value<bool>();
+      else
+        reader.complain(*given, "long_way", "is neither true nor false");
+    }
+    reader.finish();
+    return good;
   }
 
   void read_feature(const toml::table& table, double metres, sizing::Panel& panel) {
@@ -443,6 +547,7 @@ class PanelReader {
   fs::path folder_;  // paths start here
   Complaints& complaints_;
   std::set<std::string> names_;
+  bool any_placed_ = false;
 };
 
 }  // namespace

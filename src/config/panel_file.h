@@ -3,14 +3,13 @@
 
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
-#include "sizing/panel.h"
+#include "sizing/garment.h"
 
 namespace plisse {
 
 struct PanelFile {
-  std::vector<sizing::Panel> panels;
+  sizing::Garment garment;  // panels and the seams between them
   sizing::SizingOptions options;
   sizing::FabricRange range;
 };

@@ -80,6 +80,31 @@ std::string ply_text(const SizedPanel& sized, const SizeScale& scale) {
   return text;
 }
 
+// Panels as groups of faces, seams as groups of lines.
+std::string garment_text(const sizing::Garment& garment, const sizing::SizedGarment& sewn) {
+  std::string text = "# plisse size: panels sewn to one mesh; metres; uv = panel coordinates\no garment\n";
+  const auto out = std::back_inserter(text);
+  for (const glm::dvec3& p : sewn.positions) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
+  for (const auto& panel : sewn.panels)
+    for (const glm::dvec2& p : panel->mesh.vertices) fmt::format_to(out, "vt {:.9g} {:.9g}\n", p.x, p.y);
+  for (std::size_t p = 0; p < sewn.panels.size(); ++p) {
+    fmt::format_to(out, "g {}\n", one_word(garment.panels[p].name));
+    for (const auto& triangle : sewn.panels[p]->mesh.triangles) {
+      text += 'f';
+      for (const std::uint32_t corner : triangle) {
+        const std::uint32_t uv = sewn.first[p] + corner;
+        fmt::format_to(out, " {}/{}", sewn.sewn[uv] + 1, uv + 1);
+      }
+      text += '\n';
+    }
+  }
+  for (std::size_t s = 0; s < sewn.seam_edges.size(); ++s) {
+    fmt::format_to(out, "g {}\n", one_word(garment.seams[s].name));
+    for (const auto& [a, b] : sewn.seam_edges[s]) fmt::format_to(out, "l {} {}\n", a + 1, b + 1);
+  }
+  return text;
+}
+
 double area_of(const Panel& panel) {
   double area = std::abs(signed_area(panel.outline));
   for (const auto& hole : panel.holes) area -= std::abs(signed_area(hole));
@@ -113,9 +138,14 @@ SizeReport::Panel figures(const Panel& panel, const SizedPanel& sized) {
 
 SizeReport size_panels(const SizeRequest& request) {
   const PanelFile file = load_panels(request.panels);
+  const bool sewn = !file.garment.seams.empty();
+  sizing::SizedGarment garment;
+  if (sewn) garment = sizing::mesh_garment(file.garment, file.options);
   SizeReport report;
-  for (const Panel& panel : file.panels) {
-    const auto sized = sizing::mesh_panel(panel, file.options);
+  for (std::size_t p = 0; p < file.garment.panels.size(); ++p) {
+    const Panel& panel = sewn ? garment.made[p] : file.garment.panels[p];
+    const auto alone = sewn ? nullptr : sizing::mesh_panel(panel, file.options);
+    const SizedPanel* const sized = sewn ? garment.panels[p].get() : alone.get();
     for (const std::string& warning : sized->domain.warnings) log::warn(warning);
     report.panels.push_back(figures(panel, *sized));
 
@@ -129,6 +159,12 @@ SizeReport size_panels(const SizeRequest& request) {
     write_whole_file(path(".ply"), ply_text(*sized, scale));
     io::write_png(path("_map.png"), draw_size_map(panel, *sized, scale), small);
     io::write_png(path("_mesh.png"), draw_size_mesh(panel, *sized, scale), small);
+  }
+  if (sewn) {
+    report.garment = {garment.vertices, 0, garment.joins};
+    for (const auto& panel : garment.panels) report.garment->triangles += panel->mesh.triangles.size();
+    write_whole_file(report.files.emplace_back(request.folder / "garment.obj"),
+                     garment_text(file.garment, garment));
   }
   return report;
 }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "sizing/mesh_panel.h"
+#include "sizing/garment.h"
 
 namespace plisse {
 
@@ -30,10 +31,16 @@ struct SizeReport {
     sizing::MeshTimes seconds;
   };
   std::vector<Panel> panels;
+  struct Garment {  // where panels are sewn
+    std::size_t vertices = 0, triangles = 0;
+    std::vector<sizing::SizedGarment::Join> seams;
+  };
+  std::optional<Garment> garment;
   std::vector<std::filesystem::path> files;
 };
 
-// Writes for every panel NAME.obj, NAME.ply, NAME_map.png and NAME_mesh.png. Throws Error.
+// Writes for every panel NAME.obj, NAME.ply, NAME_map.png and NAME_mesh.png, and where there are seams
+// garment.obj: the panels sewn to one mesh, placed, with panel coordinates as uv. Throws Error.
 SizeReport size_panels(const SizeRequest& request);
 
 }  // namespace plisse

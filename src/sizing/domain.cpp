@@ -38,6 +38,8 @@ class Preparation {
     frame();
     add_boundary();
     report();
+    add_marks();
+    report();
     add_features();
     report();
     cut_at_crossings();
@@ -162,6 +164,17 @@ class Preparation {
     }
     nearest->cuts.push_back(cut);
     end = cut.point;
+  }
+
+  void add_marks() {
+    for (dvec2 mark : panel_.marks) {
+      dvec2 at = domain_.to_working * mark;
+      const std::size_t cuts = curves_[0].cuts.size();
+      snap(at, 0.1 * domain_.size);
+      if (curves_[0].cuts.size() == cuts)
+        problem(fmt::format("({:.6g}, {:.6g}) m is no point of its outline, where a seam is to begin or end",
+                            mark.x, mark.y));
+    }
   }
 
   void add_features() {

@@ -73,7 +73,8 @@ class Mesher {
       order.emplace_back(hilbert(cell(places[i].x), cell(places[i].y)), i);
     }
     std::sort(order.begin(), order.end());
-    std::vector<std::uint32_t> vertex(places.size());
+    std::vector<std::uint32_t>& vertex = vertex_of_sample_;
+    vertex.resize(places.size());
     for (const auto& [key, i] : order) vertex[i] = mesh_.insert(places[i]);
     for (std::size_t l = 0; l < samples.lines.size(); ++l) {
       const auto& line = samples.lines[l];
@@ -231,6 +232,7 @@ class Mesher {
   double scale_ = 1;
   Triangulation mesh_;
   std::vector<std::uint8_t> free_, on_fold_, sharp_;
+  std::vector<std::uint32_t> vertex_of_sample_;
 };
 
 void Mesher::describe(SizedPanel& result, const Samples& samples) {
@@ -286,6 +288,11 @@ void Mesher::describe(SizedPanel& result, const Samples& samples) {
       }
     }
   }
+  for (const auto& line : samples.lines) {
+    auto& vertices = mesh.lines.emplace_back();
+    for (const std::uint32_t sample : line) vertices.push_back(index[vertex_of_sample_[sample]]);
+    if (std::find(vertices.begin(), vertices.end(), Triangulation::none) != vertices.end()) vertices.clear();
+  }
   quality.edges_within = static_cast<double>(within) / static_cast<double>(std::max<std::size_t>(edges, 1));
   quality.mean_edge = lengths / static_cast<double>(std::max<std::size_t>(edges, 1));
   quality.length_ratio = edge_length_ratio(mesh);
@@ -316,31 +323,40 @@ double edge_length_ratio(const PanelMesh& mesh) {
   return std::sqrt((mean + apart) / std::max(mean - apart, 1e-300));
 }
 
-std::unique_ptr<SizedPanel> mesh_panel(const Panel& panel, const SizingOptions& options) {
+std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options) {
   auto result = std::make_unique<SizedPanel>();
+  const auto start = Clock::now();
+  result->domain = prepare(panel, options);
+  result->sources = sources_of(panel, options);
+  result->map = std::make_unique<SizeMap>(panel, result->domain, result->sources, options);
+  result->seconds.map = seconds_since(start);
+  return result;
+}
+
+void mesh_sized(SizedPanel& sized, const SizingOptions& options, const Divisions& divisions) {
   auto start = Clock::now();
   const auto lap = [&] {
     const double seconds = seconds_since(start);
     start = Clock::now();
     return seconds;
   };
-  result->domain = prepare(panel, options);
-  result->sources = sources_of(panel, options);
-  result->map = std::make_unique<SizeMap>(panel, result->domain, result->sources, options);
-  result->seconds.map = lap();
+  Samples samples = sample_lines(sized.domain, *sized.map, divisions);
+  sample_interior(sized.domain, *sized.map, options.seed, samples);
+  sized.seconds.sample = lap();
 
-  Samples samples = sample_lines(result->domain, *result->map);
-  sample_interior(result->domain, *result->map, options.seed, samples);
-  result->seconds.sample = lap();
-
-  Mesher mesher(result->domain, *result->map);
+  Mesher mesher(sized.domain, *sized.map);
   mesher.triangulate(samples);
-  result->seconds.triangulate = lap();
+  sized.seconds.triangulate = lap();
 
   mesher.smooth(8);
   for (int round = 0; round < 6 && mesher.refine() > 0; ++round) mesher.smooth(2);
-  mesher.describe(*result, samples);
-  result->seconds.improve = lap();
+  mesher.describe(sized, samples);
+  sized.seconds.improve = lap();
+}
+
+std::unique_ptr<SizedPanel> mesh_panel(const Panel& panel, const SizingOptions& options) {
+  auto result = size_panel(panel, options);
+  mesh_sized(*result, options, {});
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "sizing/domain.h"
 #include "sizing/panel.h"
+#include "sizing/sample.h"
 #include "sizing/size_map.h"
 
 namespace plisse::sizing {
@@ -22,6 +23,8 @@ struct PanelMesh {
     std::uint32_t line;  // of the domain
   };
   std::vector<Edge> line_edges;  // every edge that lies on a line
+  std::vector<std::vector<std::uint32_t>>
+      lines;  // by line of the domain: its vertices in order; none where it was lost
 };
 
 struct MeshQuality {
@@ -49,6 +52,11 @@ struct SizedPanel {
 
 // Throws Error(bad_input) as `prepare` and `sources_of` do.
 std::unique_ptr<SizedPanel> mesh_panel(const Panel& panel, const SizingOptions& options);
+
+// The same in two steps, for panels whose lines are to be divided as those of other panels are: all but the
+// mesh; the mesh.
+std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options);
+void mesh_sized(SizedPanel& sized, const SizingOptions& options, const Divisions& divisions);
 
 // Square root of the ratio of the eigenvalues of Σ e eᵀ over a mesh's edges, which for affine images of an
 // isotropic mesh is how much it was stretched, and the mean edge lengths that belong to it lie in the same

@@ -40,6 +40,7 @@ struct Panel {
   Polyline outline;   // closed
   std::vector<Polyline> holes;
   std::vector<Feature> features;
+  std::vector<glm::dvec2> marks;  // points of the outline, to a tenth of the resolution, that become vertices
 };
 
 struct SizingOptions {

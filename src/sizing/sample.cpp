@@ -119,11 +119,15 @@ class Walk {
     }
   }
   double edges() const { return count_.back(); }
-  dvec2 at(double edges) const {
+  // The segment, and how far along it.
+  std::pair<std::size_t, double> place(double edges) const {
     const auto after = std::upper_bound(count_.begin() + 1, count_.end() - 1, edges);
     const auto k = static_cast<std::size_t>(after - count_.begin()) - 1;
     const auto& [segment, from, to] = place_[k];
-    const double share = from + (to - from) * (edges - count_[k]) / (count_[k + 1] - count_[k]);
+    return {segment, from + (to - from) * (edges - count_[k]) / (count_[k + 1] - count_[k])};
+  }
+  dvec2 at(double edges) const {
+    const auto [segment, share] = place(edges);
     return shape_.start(segment) + (shape_.end(segment) - shape_.start(segment)) * share;
   }
 
@@ -137,6 +141,31 @@ class Walk {
   std::vector<Place> place_;
 };
 
+// Shares of a line's length as the panel lies, which is stretched in working coordinates.
+class PanelLength {
+ public:
+  PanelLength(const Domain& domain, const Polyline& shape) : shape_(shape) {
+    length_.push_back(0);
+    for (std::size_t i = 0; i < shape.segment_count(); ++i)
+      length_.push_back(length_.back() + glm::length(domain.to_panel * (shape.end(i) - shape.start(i))));
+  }
+  double share_of(const std::pair<std::size_t, double>& place) const {
+    const auto [i, share] = place;
+    return (length_[i] + share * (length_[i + 1] - length_[i])) / length_.back();
+  }
+  dvec2 at(double share) const {
+    const double wanted = share * length_.back();
+    const auto after = std::upper_bound(length_.begin() + 1, length_.end() - 1, wanted);
+    const auto i = static_cast<std::size_t>(after - length_.begin()) - 1;
+    const double part = (wanted - length_[i]) / (length_[i + 1] - length_[i]);
+    return shape_.start(i) + (shape_.end(i) - shape_.start(i)) * part;
+  }
+
+ private:
+  const Polyline& shape_;
+  std::vector<double> length_;
+};
+
 // All four nodes round it are: most places are settled by that.
 bool amid_inside(const SizeMap& map, const dvec2& point) {
   const dvec2 at = (point - map.node(0, 0)) / map.step();
@@ -147,7 +176,17 @@ bool amid_inside(const SizeMap& map, const dvec2& point) {
 
 }  // namespace
 
-Samples sample_lines(const Domain& domain, const SizeMap& map) {
+std::vector<double> line_division(const Domain& domain, const SizeMap& map, std::size_t line) {
+  const Polyline& shape = domain.lines[line].shape;
+  const Walk walk(shape, map, map.line_size(line));
+  const int edges = std::max(1, static_cast<int>(std::lround(walk.edges())));
+  const PanelLength length(domain, shape);
+  std::vector<double> shares;
+  for (int k = 1; k < edges; ++k) shares.push_back(length.share_of(walk.place(walk.edges() * k / edges)));
+  return shares;
+}
+
+Samples sample_lines(const Domain& domain, const SizeMap& map, const Divisions& divisions) {
   Samples samples;
   std::map<std::pair<double, double>, std::uint32_t> junctions;
   const auto add = [&](const dvec2& point) {
@@ -165,7 +204,12 @@ Samples sample_lines(const Domain& domain, const SizeMap& map) {
     const int edges = std::max(shape.closed ? 3 : 1, static_cast<int>(std::lround(walk.edges())));
     auto& line = samples.lines.emplace_back();
     line.push_back(shape.closed ? add(shape.points[0]) : junction(shape.points.front()));
-    for (int k = 1; k < edges; ++k) line.push_back(add(walk.at(walk.edges() * k / edges)));
+    if (const auto given = divisions.find(l); given != divisions.end()) {
+      const PanelLength length(domain, shape);
+      for (const double share : given->second) line.push_back(add(length.at(share)));
+    } else {
+      for (int k = 1; k < edges; ++k) line.push_back(add(walk.at(walk.edges() * k / edges)));
+    }
     line.push_back(shape.closed ? line.front() : junction(shape.points.back()));
   }
   samples.on_lines = samples.points.size();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <vector>
 
 #include "sizing/domain.h"
@@ -26,8 +27,14 @@ struct Samples {
   std::size_t on_lines = 0;
 };
 
-// Lines are divided evenly by ∫ds/r; ends stay.
-Samples sample_lines(const Domain& domain, const SizeMap& map);
+// Where a line is divided evenly by ∫ds/r: shares of its length in panel coordinates, between 0 and 1,
+// ascending. For lines that are not closed.
+std::vector<double> line_division(const Domain& domain, const SizeMap& map, std::size_t line);
+
+// Lines are divided as `divisions` says (shares of their lengths in panel coordinates), others evenly by
+// ∫ds/r; ends stay.
+using Divisions = std::map<std::size_t, std::vector<double>>;
+Samples sample_lines(const Domain& domain, const SizeMap& map, const Divisions& divisions = {});
 
 // Adds the interior: R. Bridson's sampling ("Fast Poisson Disk Sampling in Arbitrary Dimensions", 2007) with
 // r from the map. The same seed gives the same points.

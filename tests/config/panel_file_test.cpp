@@ -56,8 +56,8 @@ fabric = { thickness = 0.4, poisson = 0.3, weft = { E = 3e5 }, warp = { E = 6e5,
 outline = [[0, 0], [1, 0], [0, 1]]
 grain = 45
 )");
-  ASSERT_EQ(file.panels.size(), 2U);
-  const sizing::Panel& front = file.panels[0];
+  ASSERT_EQ(file.garment.panels.size(), 2U);
+  const sizing::Panel& front = file.garment.panels[0];
   EXPECT_EQ(front.name, "front");
   EXPECT_DOUBLE_EQ(front.outline.points[2].x, 0.3);
   EXPECT_DOUBLE_EQ(front.outline.points[2].y, 0.2);
@@ -72,7 +72,7 @@ grain = 45
   EXPECT_DOUBLE_EQ(front.features[0].other_length, 0.06);
   EXPECT_EQ(front.features[1].name, "crease");
   EXPECT_EQ(front.features[1].line.points.size(), 2U);
-  const sizing::Panel& second = file.panels[1];
+  const sizing::Panel& second = file.garment.panels[1];
   EXPECT_EQ(second.name, "panel2");
   // E h³/12(1 − ν²)
   EXPECT_DOUBLE_EQ(second.fabric.weft.bending, 3e5 * std::pow(0.4e-3, 3) / (12 * 0.91));
@@ -137,7 +137,7 @@ TEST(PanelFile, CurvesFromSvgFiles) {
   test::write_text(
       folder / "p.toml",
       "units = \"mm\"\nfabric = \"khaki\"\n[[panel]]\noutline = { svg = \"a.svg\", id = \"front\" }\n");
-  const sizing::Polyline outline = load_panels(folder / "p.toml").panels.at(0).outline;
+  const sizing::Polyline outline = load_panels(folder / "p.toml").garment.panels.at(0).outline;
   ASSERT_EQ(outline.points.size(), 3U);
   EXPECT_TRUE(outline.closed);
   EXPECT_DOUBLE_EQ(outline.points[2].x, 0.04);
@@ -154,7 +154,7 @@ TEST(PanelFile, CurvesFromSvgFiles) {
 
 TEST(PanelFile, TheExamplesAreRead) {
   const PanelFile file = load_panels(test::asset("panels.toml"));
-  EXPECT_GE(file.panels.size(), 8U);
+  EXPECT_GE(file.garment.panels.size(), 8U);
 }
 
 }  // namespace
