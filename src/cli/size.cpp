@@ -28,10 +28,11 @@ using nlohmann::ordered_json;
 
 struct Arguments {
   explicit Arguments(CLI::App& app) : common(app) {
-    app.add_option("panels", panels,
-                   described("A panel file (docs/sizing.md): outlines, fabrics, features; its meshes and "
-                             "sizing maps are written"))
-        ->type_name("PANEL.toml");
+    app.add_option(
+           "panels", panels,
+           described("A panel file (docs/sizing.md): outlines, fabrics, features, seams; or a GarmentCode "
+                     "pattern, with --fabric. Meshes and sizing maps are written"))
+        ->type_name("PANEL.toml|PATTERN.json");
     app.add_option("-o,--output", folder,
                    "Where the files of a panel file go; by default a folder of its name")
         ->type_name("DIR");
@@ -211,6 +212,7 @@ std::string table(const SizeReport& report) {
 int mesh_panels(const Arguments& arguments) {
   SizeRequest request{arguments.panels, arguments.folder};
   if (arguments.folder.empty()) request.folder = std::filesystem::path(arguments.panels).stem();
+  if (!arguments.fabric.empty()) request.fabric = fabric_option(arguments.fabric);
   const SizeReport report = size_panels(request);
   if (arguments.common.tables_wanted()) write_stdout(table(report));
   write_report(to_json(report), arguments.common.json());
@@ -236,7 +238,7 @@ int run_size(Arguments& arguments) {
     write_stdout(fabric_list(law));
     return 0;
   }
-  if (arguments.panels.empty() == arguments.fabric.empty()) {
+  if (arguments.panels.empty() && arguments.fabric.empty()) {
     throw Error(ExitCode::bad_input,
                 "plisse size: give --fabric B,E or a PANEL.toml, one of them; see 'plisse size --help'");
   }

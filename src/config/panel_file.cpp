@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "config/complaints.h"
+#include "config/garment_code.h"
 #include "config/kinds.h"
 #include "config/suggest.h"
 
@@ -552,9 +553,23 @@ class PanelReader {
 
 }  // namespace
 
-PanelFile load_panels(const fs::path& file) {
+PanelFile load_panels(const fs::path& file, const sizing::Fabric* fabric) {
   const auto bytes = read_whole_file(file);
-  return parse_panels({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  if (file.extension() != ".json") {
+    if (fabric)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: has its own fabrics; give --fabric to .json patterns alone", file.string()));
+    return parse_panels(text, file);
+  }
+  if (!fabric)
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("{}: a GarmentCode pattern tells no fabric; add --fabric NAME or B,E", file.string()));
+  PanelFile result;
+  result.garment = parse_garment_code(text, file, *fabric);
+  return result;
 }
 
 PanelFile parse_panels(std::string_view text, const fs::path& file) {

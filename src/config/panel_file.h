@@ -16,7 +16,8 @@ struct PanelFile {
 
 // Throw Error(bad_input) with file:line:column for all that is wrong at once: syntax, unknown keys and words
 // (with the nearest known one), values out of range.
-PanelFile load_panels(const std::filesystem::path& file);
+// `.json`: a GarmentCode pattern (garment_code.h), all of it of `fabric`, which TOML files have no use for.
+PanelFile load_panels(const std::filesystem::path& file, const sizing::Fabric* fabric = nullptr);
 PanelFile parse_panels(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace plisse

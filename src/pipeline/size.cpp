@@ -137,7 +137,7 @@ SizeReport::Panel figures(const Panel& panel, const SizedPanel& sized) {
 }  // namespace
 
 SizeReport size_panels(const SizeRequest& request) {
-  const PanelFile file = load_panels(request.panels);
+  const PanelFile file = load_panels(request.panels, request.fabric ? &*request.fabric : nullptr);
   const bool sewn = !file.garment.seams.empty();
   sizing::SizedGarment garment;
   if (sewn) garment = sizing::mesh_garment(file.garment, file.options);

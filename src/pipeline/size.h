@@ -11,8 +11,9 @@
 namespace plisse {
 
 struct SizeRequest {
-  std::filesystem::path panels;  // the panel file
-  std::filesystem::path folder;  // where the files go
+  std::filesystem::path panels;                         // the panel file, or a GarmentCode pattern
+  std::filesystem::path folder;                         // where the files go
+  std::optional<sizing::Fabric> fabric = std::nullopt;  // of a GarmentCode pattern
 };
 
 struct SizeReport {

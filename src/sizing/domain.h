@@ -20,6 +20,8 @@ struct Domain {
     std::vector<int> features;  // that run along it, indices into Panel::features
     int fold = -1;              // of a fold's three lines: the feature, and which of them it is
     int fold_side = 0;          // −1, 0, 1
+    double seam_size =
+        0;  // working edge length that the other side of its seam asks for; 0: no finer than it is
   };
 
   glm::dmat2 to_working{1}, to_panel{1};  // linear: p ↦ to_working · p

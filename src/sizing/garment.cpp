@@ -211,7 +211,32 @@ class Sewing {
 
   void mesh() {
     for (const Panel& panel : result_.made) result_.panels.push_back(size_panel(panel, options_));
+    refine_coarser_sides();
     std::vector<Divisions> divisions(result_.panels.size());
+    each_piece([&](const Piece& piece) {
+      const auto by_a = wanted(piece, 0), by_b = wanted(piece, 1);
+      const auto& shares = by_a.size() >= by_b.size() ? by_a : by_b;
+      for (const std::size_t i : {0U, 1U}) {
+        const std::size_t panel = piece.side[i]->panel;
+        if (!divisions[panel].try_emplace(piece.line[i], piece.backward[i] ? turned(shares) : shares).second)
+          problem(fmt::format("{} overlaps another seam on panel '{}'", name_of(*piece.seam),
+                              garment_.panels[panel].name));
+      }
+    });
+    report();
+    for (std::size_t p = 0; p < result_.panels.size(); ++p)
+      mesh_sized(*result_.panels[p], options_, divisions[p]);
+  }
+
+  // Between two corners of a seam: a line of each side.
+  struct Piece {
+    const Seam* seam;
+    std::array<const SeamSide*, 2> side;
+    std::array<std::size_t, 2> line;
+    std::array<bool, 2> backward;
+  };
+  template <typename Action>
+  void each_piece(const Action& action) const {
     for (std::size_t s = 0; s < garment_.seams.size(); ++s) {
       const Seam& seam = garment_.seams[s];
       const auto& [a, b] = stretches_[s];
@@ -219,28 +244,30 @@ class Sewing {
         throw Error(ExitCode::bad_input,
                     fmt::format("{}: corners of its two sides are too close to one another to be told apart",
                                 name_of(seam)));
-      for (std::size_t k = 0; k < a.lines.size(); ++k) {
-        const auto wanted = [&](const SeamSide& side, const Stretch& stretch) {
-          const SizedPanel& sized = *result_.panels[side.panel];
-          auto shares = line_division(sized.domain, *sized.map, stretch.lines[k]);
-          return stretch.backward ? turned(std::move(shares)) : shares;
-        };
-        const auto by_a = wanted(seam.a, a), by_b = wanted(seam.b, b);
-        const auto& shares = by_a.size() >= by_b.size() ? by_a : by_b;
-        const auto give = [&](const SeamSide& side, const Stretch& stretch) {
-          if (!divisions[side.panel]
-                   .try_emplace(stretch.lines[k], stretch.backward ? turned(shares) : shares)
-                   .second)
-            problem(fmt::format("{} overlaps another seam on panel '{}'", name_of(seam),
-                                garment_.panels[side.panel].name));
-        };
-        give(seam.a, a);
-        give(seam.b, b);
-      }
+      for (std::size_t k = 0; k < a.lines.size(); ++k)
+        action(Piece{&seam, {&seam.a, &seam.b}, {a.lines[k], b.lines[k]}, {a.backward, b.backward}});
     }
-    report();
-    for (std::size_t p = 0; p < result_.panels.size(); ++p)
-      mesh_sized(*result_.panels[p], options_, divisions[p]);
+  }
+
+  // How a side would divide a piece by itself, in the seam's direction.
+  std::vector<double> wanted(const Piece& piece, std::size_t i) const {
+    const SizedPanel& sized = *result_.panels[piece.side[i]->panel];
+    auto shares = line_division(sized.domain, *sized.map, piece.line[i]);
+    return piece.backward[i] ? turned(std::move(shares)) : shares;
+  }
+
+  // The side that gets more vertices than it asked for has its sizes eased into them.
+  void refine_coarser_sides() {
+    std::vector<std::map<std::size_t, double>> sizes(result_.panels.size());
+    each_piece([&](const Piece& piece) {
+      const std::size_t count[] = {wanted(piece, 0).size(), wanted(piece, 1).size()};
+      if (count[0] == count[1]) return;
+      const std::size_t coarse = count[0] < count[1] ? 0 : 1, panel = piece.side[coarse]->panel;
+      const double length = result_.panels[panel]->domain.lines[piece.line[coarse]].shape.length();
+      sizes[panel][piece.line[coarse]] = length / static_cast<double>(count[1 - coarse] + 1);
+    });
+    for (std::size_t p = 0; p < sizes.size(); ++p)
+      if (!sizes[p].empty()) result_.panels[p] = size_panel(result_.made[p], options_, sizes[p]);
   }
 
   // A panel's vertices along a stretch, in the seam's direction.

@@ -323,10 +323,12 @@ double edge_length_ratio(const PanelMesh& mesh) {
   return std::sqrt((mean + apart) / std::max(mean - apart, 1e-300));
 }
 
-std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options) {
+std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options,
+                                       const std::map<std::size_t, double>& seam_sizes) {
   auto result = std::make_unique<SizedPanel>();
   const auto start = Clock::now();
   result->domain = prepare(panel, options);
+  for (const auto& [line, size] : seam_sizes) result->domain.lines[line].seam_size = size;
   result->sources = sources_of(panel, options);
   result->map = std::make_unique<SizeMap>(panel, result->domain, result->sources, options);
   result->seconds.map = seconds_since(start);

@@ -54,8 +54,9 @@ struct SizedPanel {
 std::unique_ptr<SizedPanel> mesh_panel(const Panel& panel, const SizingOptions& options);
 
 // The same in two steps, for panels whose lines are to be divided as those of other panels are: all but the
-// mesh; the mesh.
-std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options);
+// mesh (with Domain::Line::seam_size of some lines); the mesh.
+std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options,
+                                       const std::map<std::size_t, double>& seam_sizes = {});
 void mesh_sized(SizedPanel& sized, const SizingOptions& options, const Divisions& divisions);
 
 // Square root of the ratio of the eigenvalues of Σ e eᵀ over a mesh's edges, which for affine images of an

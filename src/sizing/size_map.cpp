@@ -70,6 +70,7 @@ SizeMap::SizeMap(const Panel& panel, const Domain& domain, const std::vector<Sou
         continue;
       line_sizes_[i] = std::min(line_sizes_[i], working_size(source.weft.source, source.warp.source));
     }
+    if (domain.lines[i].seam_size > 0) line_sizes_[i] = std::min(line_sizes_[i], domain.lines[i].seam_size);
   }
 
   const std::vector<Cap> caps = shape_caps();
@@ -182,6 +183,14 @@ std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
     const Domain::Line& line = domain_.lines[l];
     const double length = line.shape.length();
     if (line.fold_side != 0) continue;
+    if (line.seam_size > 0) {
+      for (std::size_t i = 0; i < line.shape.segment_count(); ++i) {
+        const dvec2 a = line.shape.start(i), way = line.shape.end(i) - a;
+        const int steps =
+            std::clamp(static_cast<int>(std::ceil(glm::length(way) / line.seam_size)), 1, 1 << 20);
+        for (int k = 0; k <= steps; ++k) add(a + way * (static_cast<double>(k) / steps), line.seam_size);
+      }
+    }
     if (!line.shape.closed && length < domain_.size && !beside_fold[l]) {
       add(line.shape.points.front(), length);
       add(line.shape.points.back(), length);

@@ -53,6 +53,25 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
   }
 }
 
+TEST(Size, TheSkirtIsOneMesh) {
+  const test::TemporaryFolder folder;
+  const SizeReport report = size_panels({test::asset("skirt.toml"), folder.path()});
+  ASSERT_TRUE(report.garment);
+  EXPECT_EQ(report.garment->seams.size(), 6U);
+  for (const SizeReport::Panel& panel : report.panels) {
+    EXPECT_GE(panel.quality.edges_within, 0.99) << panel.name;
+    EXPECT_GE(panel.quality.least_angle, 25) << panel.name;
+  }
+  const io::ObjFile obj = io::read_obj_file(folder / "garment.obj");
+  EXPECT_EQ(obj.positions.size(), report.garment->vertices);
+  std::size_t together = 0, seam_vertices = 0;
+  for (const SizeReport::Panel& panel : report.panels) together += panel.vertices;
+  for (const auto& seam : report.garment->seams) seam_vertices += seam.edges + 1;
+  // Each seam joins two vertices to one, all the way; where four panels meet, left and right, four seams end
+  // but three vertices go.
+  EXPECT_EQ(together - report.garment->vertices, seam_vertices - 2);
+}
+
 TEST(Size, TheExamplesAreAsTheirScriptMakesThem) {
   const std::string check =
       fmt::format("'{}' --check > /dev/null", test::source_file("tools/make_panels").string());
