@@ -20,6 +20,7 @@ Command add_paint(CLI::App& program);
 Command add_export(CLI::App& program);
 Command add_bake(CLI::App& program);
 Command add_drape(CLI::App& program);
+Command add_wrinkle(CLI::App& program);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

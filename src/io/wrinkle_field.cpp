@@ -56,22 +56,6 @@ double number_of(std::string_view word, const fs::path& path, std::size_t line) 
   return *value;
 }
 
-std::vector<double> numbers_in(const fs::path& path, std::size_t wanted, std::string_view of_what) {
-  std::vector<double> values;
-  for_lines(path, [&](std::size_t line, std::string_view text) {
-    const auto words = words_of(text);
-    if (words.empty()) return;
-    if (words.size() > 1)
-      throw bad(fmt::format("{}:{}", path.string(), line), "more than one number in a line");
-    values.push_back(number_of(words[0], path, line));
-  });
-  if (values.size() != wanted) {
-    throw bad(path.string(),
-              fmt::format("has {} numbers, the base surface has {} {}", values.size(), wanted, of_what));
-  }
-  return values;
-}
-
 // Only v and f lines: the vertices in the file's own order, which is what text files count.
 void read_obj(const fs::path& path, WrinkleField& field) {
   for_lines(path, [&](std::size_t line, std::string_view text) {
@@ -111,7 +95,11 @@ fs::path sibling(const fs::path& amplitude, const std::string& word) {
         amplitude.string(),
         "is neither a PLY nor a text file with 'amplitude' in its name, like cloth_amplitude_simulated.txt");
   }
-  const fs::path path = amplitude.parent_path() / name.replace(at, from.size(), word);
+  return amplitude.parent_path() / name.replace(at, from.size(), word);
+}
+
+fs::path existing_sibling(const fs::path& amplitude, const std::string& word) {
+  const fs::path path = sibling(amplitude, word);
   std::error_code ignored;
   if (!fs::exists(path, ignored))
     throw bad(amplitude.string(), fmt::format("needs '{}' beside it", path.string()));
@@ -132,12 +120,12 @@ std::map<Edge, std::size_t> edges_of(const WrinkleField& field) {
 
 WrinkleField read_text(const fs::path& path, const fs::path& mesh) {
   WrinkleField field;
-  const fs::path phi_file = sibling(path, "phi"), dphi_file = sibling(path, "dphi");
+  const fs::path phi_file = existing_sibling(path, "phi"), dphi_file = existing_sibling(path, "dphi");
   read_obj(mesh, field);
   const auto edges = edges_of(field);
-  field.amplitude = numbers_in(path, field.positions.size(), "vertices");
-  const auto phi = numbers_in(phi_file, field.positions.size(), "vertices");
-  const auto dphi = numbers_in(dphi_file, edges.size(), "edges");
+  field.amplitude = read_numbers(path, field.positions.size(), "vertices");
+  const auto phi = read_numbers(phi_file, field.positions.size(), "vertices");
+  const auto dphi = read_numbers(dphi_file, edges.size(), "edges");
   for (const auto& t : field.triangles) {
     std::array<double, 3> phase{phi[t[0]], 0, 0};
     for (std::size_t c = 1; c < 3; ++c) {
@@ -219,6 +207,22 @@ void validate(const WrinkleField& field, const std::string& file) {
 
 }  // namespace
 
+std::vector<double> read_numbers(const fs::path& path, std::size_t wanted, std::string_view of_what) {
+  std::vector<double> values;
+  for_lines(path, [&](std::size_t line, std::string_view text) {
+    const auto words = words_of(text);
+    if (words.empty()) return;
+    if (words.size() > 1)
+      throw bad(fmt::format("{}:{}", path.string(), line), "more than one number in a line");
+    values.push_back(number_of(words[0], path, line));
+  });
+  if (values.size() != wanted) {
+    throw bad(path.string(),
+              fmt::format("has {} numbers, the base surface has {} {}", values.size(), wanted, of_what));
+  }
+  return values;
+}
+
 WrinkleField read_wrinkle_field(const fs::path& path, const fs::path& mesh) {
   const bool ply = path.extension() == ".ply" || path.extension() == ".PLY";
   WrinkleField field = ply ? read_ply_field(path) : read_text(path, mesh);
@@ -226,7 +230,21 @@ WrinkleField read_wrinkle_field(const fs::path& path, const fs::path& mesh) {
   return field;
 }
 
-void write_wrinkle_field(const fs::path& path, const WrinkleField& field) {
+void write_wrinkle_texts(const fs::path& amplitude, const std::vector<double>& amplitudes,
+                         const std::vector<double>& phase, const std::vector<double>& one_form) {
+  const auto write = [](const fs::path& path, const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) text += fmt::format("{:.17g}\n", value);
+    write_whole_file(path, text);
+  };
+  const fs::path phi = sibling(amplitude, "phi"), dphi = sibling(amplitude, "dphi");
+  write(amplitude, amplitudes);
+  write(phi, phase);
+  write(dphi, one_form);
+}
+
+void write_wrinkle_field(const fs::path& path, const WrinkleField& field,
+                         const std::vector<std::string>& comments) {
   using Type = PlyProperty::Type;
   PlyElement vertex{"vertex", field.positions.size()}, face{"face", field.triangles.size()};
   for (int i = 0; i < 3; ++i) {
@@ -257,7 +275,9 @@ void write_wrinkle_field(const fs::path& path, const WrinkleField& field) {
     second.values.push_back(ends.second);
   }
   edge.properties = {std::move(first), std::move(second), {"omega", Type::float64, false, std::move(omega)}};
-  write_ply(path, {{"plisse: wrinkle field, height = amplitude cos(phase)"}, {vertex, face, edge}});
+  std::vector<std::string> lines{"plisse: wrinkle field, height = amplitude cos(phase)"};
+  lines.insert(lines.end(), comments.begin(), comments.end());
+  write_ply(path, {std::move(lines), {vertex, face, edge}});
 }
 
 }  // namespace plisse::io

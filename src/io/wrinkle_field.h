@@ -17,6 +17,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace plisse::io {
@@ -33,7 +35,19 @@ struct WrinkleField {
 // vertex whose phases do not differ by multiples of 2π where the amplitude is not 0.
 WrinkleField read_wrinkle_field(const std::filesystem::path& path, const std::filesystem::path& mesh);
 
+// One number a line. Throws Error(bad_input) where there are not `wanted` of them (`of_what`: of the base
+// surface), or one is no finite number.
+std::vector<double> read_numbers(const std::filesystem::path& path, std::size_t wanted,
+                                 std::string_view of_what);
+
 // The PLY form. `edge` gets omega = the difference of phases. Throws Error(no_output).
-void write_wrinkle_field(const std::filesystem::path& path, const WrinkleField& field);
+void write_wrinkle_field(const std::filesystem::path& path, const WrinkleField& field,
+                         const std::vector<std::string>& comments = {});
+
+// The authors' texts: `amplitude` as its name says, phi and dphi beside it. `phase`: one a vertex;
+// `one_form`: one an edge, radians. Throws Error(bad_input) where 'amplitude' is not in the name,
+// Error(no_output).
+void write_wrinkle_texts(const std::filesystem::path& amplitude, const std::vector<double>& amplitudes,
+                         const std::vector<double>& phase, const std::vector<double>& one_form);
 
 }  // namespace plisse::io

@@ -28,22 +28,6 @@ double peak_rss_MiB() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-shell::Shell shell_of(const DrapeScene& scene) {
-  if (scene.rest_faces.size() != scene.faces.size())
-    throw Error(ExitCode::bad_input,
-                fmt::format("{} rest triangles for {} faces: each face needs one, in the same order",
-                            scene.rest_faces.size(), scene.faces.size()));
-  shell::Shell shell;
-  shell.topology = shell::build_topology(scene.faces, static_cast<std::size_t>(scene.start.cols()));
-  shell::build_topology(scene.rest_faces, static_cast<std::size_t>(scene.rest.cols()));  // for its checks
-  shell.rest = shell::rest_faces(scene.rest, scene.rest_faces);
-  shell.material = scene.material;
-  shell.stretching = scene.stretching;
-  shell.bending = scene.bending;
-  shell.residual = scene.residual;
-  return shell;
-}
-
 // A flat St. Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing
 // disturbs it.
 Positions perturbed(const DrapeScene& scene) {
@@ -65,6 +49,22 @@ std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame
 }
 
 }  // namespace
+
+shell::Shell shell_of(const DrapeScene& scene) {
+  if (scene.rest_faces.size() != scene.faces.size())
+    throw Error(ExitCode::bad_input,
+                fmt::format("{} rest triangles for {} faces: each face needs one, in the same order",
+                            scene.rest_faces.size(), scene.faces.size()));
+  shell::Shell shell;
+  shell.topology = shell::build_topology(scene.faces, static_cast<std::size_t>(scene.start.cols()));
+  shell::build_topology(scene.rest_faces, static_cast<std::size_t>(scene.rest.cols()));  // for its checks
+  shell.rest = shell::rest_faces(scene.rest, scene.rest_faces);
+  shell.material = scene.material;
+  shell.stretching = scene.stretching;
+  shell.bending = scene.bending;
+  shell.residual = scene.residual;
+  return shell;
+}
 
 void write_base(const std::filesystem::path& path, const DrapeScene& scene, const DrapeFrame& frame,
                 const Positions& positions) {

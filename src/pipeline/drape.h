@@ -44,6 +44,9 @@ struct DrapeReport {
 // interrupt ends the run after the step, with the last good state written. Throws Error.
 DrapeReport drape(const DrapeRequest& request);
 
+// Throws Error(bad_input) where rest and base faces do not belong together.
+shell::Shell shell_of(const DrapeScene& scene);
+
 // The base surface as PLY: `vertex` x, y, z, and held (1: all three coordinates); `face` vertex_indices and
 // rest: u₀ v₀ u₁ v₁ u₂ v₂ of its corners in the plane of its rest triangle, metres. Comments carry the
 // material

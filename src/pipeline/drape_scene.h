@@ -23,6 +23,7 @@ struct DrapeScene {
   std::vector<shell::Face> rest_faces;  // into `rest`; face i, corner j belongs to base face i, corner j
   std::vector<shell::Face> faces;       // of the base surface
   shell::Positions start;               // of the base surface
+  bool solved = false;                  // `start` is the answer (the base_mesh of a set-up for wrinkles)
   shell::Material material;
   shell::Stretching stretching = shell::Stretching::tension_field;
   shell::Bending bending = shell::Bending::quadratic;

@@ -262,9 +262,19 @@ DrapeScene scene_of(Setup& setup) {
   scene.rest_faces = scene.faces = mesh.faces;
   // Sewn: the rest mesh is cut apart, the surface they ship says what belongs together. Only its faces are
   // taken.
-  const std::string current = setup.text("cur_mesh");
+  const std::string current = setup.text("cur_mesh"), solved = setup.text("base_mesh");
   std::error_code error;
-  if (!current.empty() && fs::is_regular_file(setup.file().parent_path() / current, error)) {
+  if (!solved.empty()) {
+    const FlatMesh base = read_mesh(setup.file().parent_path() / solved);
+    if (base.faces.size() != mesh.faces.size())
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: 'base_mesh' has {} faces, 'rest_mesh' {}; face i of one is face i of the other",
+                      setup.file().string(), base.faces.size(), mesh.faces.size()));
+    scene.faces = base.faces;
+    scene.start = base.points;
+    scene.solved = true;
+  } else if (!current.empty() && fs::is_regular_file(setup.file().parent_path() / current, error)) {
     const FlatMesh base = read_mesh(setup.file().parent_path() / current);
     if (base.faces != mesh.faces) {
       scene.faces = base.faces;

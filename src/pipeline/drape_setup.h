@@ -11,7 +11,7 @@ namespace plisse {
 // clamped_DOFs, youngs_modulus, poisson_ratio, thickness, density, gravity, pressure, stretching_type
 // (tensionField or StVK), bending_type; their meshes' axes stay. What clamps, guess or obstacle name and is
 // not there is warned of and done without; the start is the rest mesh, since their cur_mesh is the answer.
-// Throws Error(bad_input).
+// A set-up for wrinkles names a base_mesh, which becomes a `solved` start. Throws Error(bad_input).
 DrapeScene load_drape(const std::filesystem::path& file);
 
 // Positions for the scene's base vertices from an OBJ. Throws Error(bad_input) where there are more or fewer.

@@ -83,7 +83,12 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
 
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {
-    if (!complex_.live[f]) continue;
+    if (!complex_.live[f]) {
+      // Pinned all round: flat, whatever the rest does.
+      const FaceEnergy still(forms_[f], model_);
+      if (!wrinkle_free_[f]) relaxed_energy_ += still.relaxed() + still.value(LocalVector::Zero());
+      continue;
+    }
     Face face{f, FaceEnergy(forms_[f], model_), {}, {}, {}};
     for (const std::uint32_t v : topology_.faces[f]) face.unknown.push_back(amplitude_unknown_[v]);
     relaxed_energy_ += face.energy.relaxed();

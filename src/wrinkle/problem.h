@@ -49,7 +49,9 @@ class Problem {
 
   // Joules, over live faces, above their relaxed energy and without the base surface's own bending.
   double energy(const Eigen::VectorXd& x) const;
-  double relaxed_energy() const { return relaxed_energy_; }  // J, of the live faces
+  // J: the relaxed energy of the live faces, and all that faces have whose corners are pinned without being
+  // wrinkle-free.
+  double relaxed_energy() const { return relaxed_energy_; }
   double gradient(const Eigen::VectorXd& x, Eigen::VectorXd& first) const;
   // The lower half, of a pattern that never changes: exact, or with every face's part projected to the
   // nearest positive semidefinite one.

@@ -18,16 +18,6 @@ using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 
-// Rows and columns of unknowns that are held become those of the identity.
-void hold(SparseMatrix<double>& matrix, const std::vector<bool>& held, double diagonal) {
-  for (Index column = 0; column < matrix.cols(); ++column) {
-    for (SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (held[static_cast<std::size_t>(entry.row())] || held[static_cast<std::size_t>(column)])
-        entry.valueRef() = entry.row() == column ? diagonal : 0;
-    }
-  }
-}
-
 class Newton {
  public:
   Newton(const Problem& problem, const SolveOptions& options)
@@ -64,6 +54,15 @@ class Newton {
 };
 
 }  // namespace
+
+void hold(SparseMatrix<double>& matrix, const std::vector<bool>& held, double diagonal) {
+  for (Index column = 0; column < matrix.cols(); ++column) {
+    for (SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      if (held[static_cast<std::size_t>(entry.row())] || held[static_cast<std::size_t>(column)])
+        entry.valueRef() = entry.row() == column ? diagonal : 0;
+    }
+  }
+}
 
 double kkt_residual(const Problem& problem, const VectorXd& x, double energy, const VectorXd& first,
                     bool fixed_periods) {

@@ -22,7 +22,7 @@ struct SolveStep {
 
 struct Solution {
   Waves waves;
-  double start_energy = 0, energy = 0;  // J, (27) over the live faces: relaxed energy included
+  double start_energy = 0, energy = 0;  // J, (37): the relaxed energy included
   double kkt = 0;                       // scaled residual, see kkt_residual
   int iterations = 0;
   bool converged = false;
@@ -37,6 +37,10 @@ struct Solution {
 // wave changes by its own height, or one phase by a radian. `first`: dE by the problem's unknowns.
 double kkt_residual(const Problem& problem, const Eigen::VectorXd& x, double energy,
                     const Eigen::VectorXd& first, bool fixed_periods = false);
+
+// Rows and columns of unknowns that are held become those of `diagonal` times the identity; `matrix`: the
+// lower half.
+void hold(Eigen::SparseMatrix<double>& matrix, const std::vector<bool>& held, double diagonal);
 
 Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options = {});
 

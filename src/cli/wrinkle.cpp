@@ -1,0 +1,204 @@
+// plisse wrinkle: amplitude and phase of the wrinkles on a base surface.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/report.h"
+#include "config/suggest.h"
+#include "pipeline/drape_examples.h"
+#include "pipeline/drape_setup.h"
+#include "pipeline/wrinkle.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  explicit Arguments(CLI::App& app) : common(app) {
+    app.add_option(
+           "input", input,
+           described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
+                     "authors; what is not draped yet is draped first"))
+        ->type_name("BASE.ply|SCENE.toml|SETUP.json");
+    app.add_option("--example", example,
+                   "A built-in scene instead; 'plisse drape --list-examples' names them")
+        ->type_name("NAME");
+    app.add_option("--vertices", vertices, "About how many vertices an example's mesh has")->type_name("N");
+    app.add_option("--seed", seed, "Another seed, another mesh of the same example (default 1)")
+        ->type_name("S");
+    app.add_option(
+           "-o,--output", output,
+           described("field.ply (the default), or NAME_amplitude_REST.txt for the authors' three text "
+                     "files"))
+        ->type_name("FILE");
+    app.add_option("--wrinkle-free", rule,
+                   described("Which faces have no waves: by the paper's rule (the default) or its authors' "
+                             "program's"))
+        ->type_name("paper|authors");
+    app.add_flag("--pin-held", pin_held, "No waves where the surface was held while draping");
+    app.add_option("--without", without,
+                   described("Leave a correction out, to see what it does: v1 (waves lean with the surface's "
+                             "curvature) or v2 (waves bulge sideways); may be given twice"))
+        ->type_name("v1|v2")
+        ->take_all();
+    app.add_option(
+           "--curvature", curvature,
+           described("From quadratics fitted over so many edges round a vertex (default 2), or mid-edge "
+                     "normals"))
+        ->type_name("EDGES|mid-edge");
+    app.add_option("--curvature-factor", factor,
+                   described("Multiplies the curvature term; 1.44 is what the authors' program has"))
+        ->type_name("X");
+    app.add_option("--frequency", frequency, "Start with waves so many times as dense (default 1)")
+        ->type_name("X");
+    app.add_option("--iterations", iterations, "At most so many Newton steps (default 500)")->type_name("N");
+    app.add_option(
+           "--evaluate", evaluate,
+           described("Solve nothing: the energy of a field in two text files, an amplitude a vertex and "
+                     "a difference of phase an edge"))
+        ->type_name("AMPLITUDE DPHI")
+        ->expected(2);
+  }
+
+  CommonArguments common;
+  std::string input, example, vertices, seed, output = "field.ply", rule = "paper", curvature = "2",
+                                              factor = "1", frequency = "1", iterations = "500";
+  std::vector<std::string> without, evaluate;
+  bool pin_held = false;
+};
+
+double number_in(const std::string& option, const std::string& text, double low, double high) {
+  const auto value = parse_number(text);
+  if (!value || !(*value >= low && *value <= high))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: '{}' is not a number from {} to {}", option, text, low, high));
+  return *value;
+}
+
+void one_of(const std::string& option, const std::string& text, const std::vector<std::string>& allowed) {
+  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
+    throw Error(ExitCode::bad_input, fmt::format("{}: unknown '{}'{}; there are {}", option, text,
+                                                 did_you_mean(text, allowed), fmt::join(allowed, " and ")));
+}
+
+WrinkleScene scene_of(const Arguments& arguments) {
+  if (arguments.input.empty() == arguments.example.empty())
+    throw Error(
+        ExitCode::bad_input,
+        "plisse wrinkle: give a BASE.ply, a SCENE.toml, a SETUP.json or --example NAME; see 'plisse wrinkle "
+        "--help'");
+  if (!arguments.example.empty()) {
+    const int vertices =
+        arguments.vertices.empty() ? 0 : whole_number("--vertices", arguments.vertices, 20, 1000000);
+    const int seed = arguments.seed.empty() ? 1 : whole_number("--seed", arguments.seed, 0, 2147483647);
+    return base_of(drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed)));
+  }
+  if (!arguments.vertices.empty() || !arguments.seed.empty())
+    throw Error(ExitCode::bad_input, "--vertices and --seed are for --example: a file has its own mesh");
+  if (std::filesystem::path(arguments.input).extension() == ".ply") return read_base(arguments.input);
+  return base_of(load_drape(arguments.input));
+}
+
+WrinkleRequest request_of(const Arguments& arguments) {
+  WrinkleRequest request;
+  one_of("--wrinkle-free", arguments.rule, {"paper", "authors"});
+  request.rule =
+      arguments.rule == "paper" ? wrinkle::WrinkleFreeRule::paper : wrinkle::WrinkleFreeRule::authors;
+  for (const std::string& term : arguments.without) {
+    one_of("--without", term, {"v1", "v2"});
+    (term == "v1" ? request.v1 : request.v2) = false;
+  }
+  if (arguments.curvature == "mid-edge")
+    request.curvature.kind = wrinkle::CurvatureFit::mid_edge;
+  else
+    request.curvature.edges = whole_number("--curvature", arguments.curvature, 1, 20);
+  request.curvature_factor = number_in("--curvature-factor", arguments.factor, 0, 1e6);
+  request.options.frequency = number_in("--frequency", arguments.frequency, 1e-3, 1e3);
+  request.options.solve.max_iterations = whole_number("--iterations", arguments.iterations, 0, 1000000);
+  request.pin_held = arguments.pin_held;
+  request.output = arguments.output;
+  request.scene = scene_of(arguments);
+  return request;
+}
+
+ordered_json to_json(const WrinkleReport& report) {
+  const wrinkle::Field& field = report.field;
+  ordered_json trace = ordered_json::array(), outputs = ordered_json::array();
+  for (const wrinkle::SolveStep& step : field.real.trace)
+    trace.push_back({{"iteration", step.iteration}, {"seconds", step.seconds}, {"energy_J", step.energy}});
+  for (const auto& path : report.outputs) outputs.push_back({{"path", path.string()}, {"kind", "field"}});
+  return {{"vertices", report.vertices},
+          {"faces", report.faces},
+          {"wrinkle_free_faces", report.wrinkle_free_faces},
+          {"released_faces", report.released_faces},
+          {"energy_start_J", field.real.start_energy},
+          {"energy_J", field.real.energy},
+          {"energy_whole_periods_J", field.whole.energy},
+          {"kkt_scaled", field.real.kkt},
+          {"iterations", field.real.iterations},
+          {"converged", field.real.converged && field.whole.converged},
+          {"reason", field.real.converged ? field.whole.reason : field.real.reason},
+          {"max_amplitude_m", report.max_amplitude},
+          {"wrinkled_vertices", report.wrinkled_vertices},
+          {"waves", field.waves},
+          {"periods", field.whole.waves.period.size()},
+          {"phase_residual", field.phase_residual},
+          {"solve_s", field.solve_s},
+          {"phase_s", field.phase_s},
+          {"wall_s", report.wall_s},
+          {"outputs", outputs},
+          {"trace", trace}};
+}
+
+int run_wrinkle(Arguments& arguments) {
+  arguments.common.apply();
+  const WrinkleRequest request = request_of(arguments);
+  if (!arguments.evaluate.empty()) {
+    const WrinkleEvaluation evaluation =
+        evaluate_field(request, arguments.evaluate[0], arguments.evaluate[1]);
+    log::notice(fmt::format("{:.10g} J, scaled residual {:.3g}, largest curl {:.3g} rad", evaluation.energy,
+                            evaluation.kkt, evaluation.curl_max));
+    write_report(
+        {{"energy_J", evaluation.energy}, {"kkt_scaled", evaluation.kkt}, {"curl_max", evaluation.curl_max}},
+        arguments.common.json());
+    return 0;
+  }
+  const WrinkleReport report = wrinkle_field(request);
+  const wrinkle::Field& field = report.field;
+  const bool converged = field.real.converged && field.whole.converged;
+  log::notice(
+      fmt::format("{}{} vertices, {} of {} faces without waves: {:.4g} waves, at most {:.4g} mm high, "
+                  "{:.9g} J after {} steps ({}) in {:.3f} s",
+                  converged ? "" : "NOT CONVERGED, ", report.vertices, report.wrinkle_free_faces,
+                  report.faces, field.waves, 1e3 * report.max_amplitude, field.whole.energy,
+                  field.real.iterations, field.real.reason, report.wall_s));
+  if (report.max_amplitude == 0) log::notice("nothing wrinkles: no face is compressed enough");
+  for (const auto& path : report.outputs) log::notice(fmt::format("→ {}", path.string()));
+  write_report(to_json(report), arguments.common.json());
+  return static_cast<int>(converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
+}  // namespace
+
+Command add_wrinkle(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("wrinkle", "Solve amplitude and phase of the wrinkles on a base surface");
+  app->footer(
+      "\nplisse drape --example twisted-cylinder -o base.ply && plisse wrinkle base.ply -o field.ply\n"
+      "A scene whose model is base.ply takes it up with [bias] field = \"field.ply\", use = \"direct\".");
+  auto arguments = std::make_shared<Arguments>(*app);
+  return {app, [arguments] { return run_wrinkle(*arguments); }};
+}
+
+}  // namespace plisse::cli

@@ -1,0 +1,61 @@
+// plisse wrinkle, the story: a base surface → its forms → amplitude and phase → field files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/drape_scene.h"
+#include "wrinkle/field.h"
+#include "wrinkle/wrinkle_free.h"
+
+namespace plisse {
+
+// What is solved on, metres.
+struct WrinkleScene {
+  std::string name;
+  wrinkle::BaseSurface surface;
+  shell::Material material;
+  std::vector<bool> held;  // one a vertex: held while draping
+};
+
+// A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).
+WrinkleScene read_base(const std::filesystem::path& file);
+// The scene's last frame; drapes it first where it is not solved. Throws Error(check_failed) where that does
+// not converge.
+WrinkleScene base_of(const DrapeScene& scene);
+
+struct WrinkleRequest {
+  WrinkleScene scene;
+  wrinkle::WrinkleFreeRule rule = wrinkle::WrinkleFreeRule::paper;
+  wrinkle::CurvatureFit curvature;
+  bool v1 = true, v2 = true;  // ablations, see wrinkle::Model
+  double curvature_factor = 1;
+  bool pin_held = false;  // no amplitude where the surface is held
+  wrinkle::FieldOptions options;
+  std::filesystem::path
+      output;  // field.ply, or NAME_amplitude_REST.txt for the authors' three text files; empty: none
+};
+
+struct WrinkleReport {
+  std::size_t vertices = 0, faces = 0, wrinkle_free_faces = 0, released_faces = 0;
+  wrinkle::Field field;
+  double max_amplitude = 0;           // metres
+  std::size_t wrinkled_vertices = 0;  // amplitude above a hundredth of the largest
+  std::vector<std::filesystem::path> outputs;
+  double wall_s = 0;
+};
+
+WrinkleReport wrinkle_field(const WrinkleRequest& request);
+
+struct WrinkleEvaluation {
+  double energy = 0;    // J, as the solver's
+  double kkt = 0;       // scaled residual
+  double curl_max = 0;  // radians: the largest |sum of dφ round a face| where it has to be 0
+};
+
+// The energy of a field that somebody else solved: text files, one amplitude a vertex and one dφ an edge.
+WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const std::filesystem::path& amplitude,
+                                 const std::filesystem::path& one_form);
+
+}  // namespace plisse
