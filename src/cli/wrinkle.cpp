@@ -46,7 +46,9 @@ struct Arguments {
                    described("Which faces have no waves: by the paper's rule (the default) or its authors' "
                              "program's"))
         ->type_name("paper|authors");
-    app.add_flag("--pin-held", pin_held, "No waves where the surface was held while draping");
+    app.add_flag(
+        "--free-held", free_held,
+        "Waves also where the surface was held while draping; without it their amplitude is 0 there");
     app.add_option("--without", without,
                    described("Leave a correction out, to see what it does: v1 (waves lean with the surface's "
                              "curvature) or v2 (waves bulge sideways); may be given twice"))
@@ -75,7 +77,7 @@ struct Arguments {
   std::string input, example, vertices, seed, output = "field.ply", rule = "paper", curvature = "2",
                                               factor = "1", frequency = "1", iterations = "500";
   std::vector<std::string> without, evaluate;
-  bool pin_held = false;
+  bool free_held = false;
 };
 
 double number_in(const std::string& option, const std::string& text, double low, double high) {
@@ -126,7 +128,7 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.curvature_factor = number_in("--curvature-factor", arguments.factor, 0, 1e6);
   request.options.frequency = number_in("--frequency", arguments.frequency, 1e-3, 1e3);
   request.options.solve.max_iterations = whole_number("--iterations", arguments.iterations, 0, 1000000);
-  request.pin_held = arguments.pin_held;
+  request.pin_held = !arguments.free_held;
   request.output = arguments.output;
   request.scene = scene_of(arguments);
   return request;

@@ -31,7 +31,7 @@ struct WrinkleRequest {
   wrinkle::CurvatureFit curvature;
   bool v1 = true, v2 = true;  // ablations, see wrinkle::Model
   double curvature_factor = 1;
-  bool pin_held = false;  // no amplitude where the surface is held
+  bool pin_held = true;  // no amplitude where the surface is held
   wrinkle::FieldOptions options;
   std::filesystem::path
       output;  // field.ply, or NAME_amplitude_REST.txt for the authors' three text files; empty: none

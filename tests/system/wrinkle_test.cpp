@@ -1,0 +1,99 @@
+// plisse wrinkle from outside: draped base to field to picture, the authors' set-up, and how it ends.
+#include <gmock/gmock.h>
+
+#include "io/wrinkle_field.h"
+#include "system/plisse.h"
+
+namespace plisse::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Wrinkle : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  nlohmann::json report() const { return nlohmann::json::parse(read_text(folder_ / "report.json")); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Wrinkle, StretchedSheetHasThePapersWaves) {
+  ASSERT_EQ(plisse({"drape", "--example", "stretched-sheet", "-o", file("base.ply"), "-q"}).code, 0);
+  const Outcome outcome =
+      plisse({"wrinkle", file("base.ply"), "-o", file("field.ply"), "--json", file("report.json")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = report();
+  for (const char* key :
+       {"vertices", "faces", "wrinkle_free_faces", "energy_start_J", "energy_J", "kkt_scaled", "iterations",
+        "converged", "reason", "max_amplitude_m", "wrinkled_vertices", "waves", "phase_residual", "solve_s",
+        "phase_s", "wall_s", "trace"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  // Chen et al. 2021, fig. 6: 5 periods, .42 mm; Wang et al. 2018: .35 mm.
+  EXPECT_NEAR(json["waves"].get<double>(), 5, 1);
+  EXPECT_GT(json["max_amplitude_m"].get<double>(), 0.33e-3);
+  EXPECT_LT(json["max_amplitude_m"].get<double>(), 0.45e-3);
+  EXPECT_LE(json["kkt_scaled"].get<double>(), 1e-6);
+  const auto field = io::read_wrinkle_field(file("field.ply"), {});
+  EXPECT_EQ(field.positions.size(), json["vertices"]);
+}
+
+// Paper: 46, 46, 47 waves on irregular meshes of 180, 344 and 688 vertices, over 180 without v₁; an
+// independent one-dimensional optimum: 44.
+TEST_F(Wrinkle, TwistedCylinderOnThreeMeshes) {
+  for (const char* vertices : {"344", "688", "1309"}) {
+    const Outcome outcome = plisse({"wrinkle", "--example", "twisted-cylinder", "--vertices", vertices, "-o",
+                                    file("field.ply"), "--json", file("report.json"), "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NEAR(report()["waves"].get<double>(), 44, 2) << vertices;
+  }
+  const Outcome without = plisse({"wrinkle", "--example", "twisted-cylinder", "--without", "v1", "-o",
+                                  file("field.ply"), "--json", file("report.json"), "-q"});
+  ASSERT_EQ(without.code, 0) << without.err;
+  EXPECT_GT(report()["waves"].get<double>(), 150);
+}
+
+TEST_F(Wrinkle, TheAuthorsSetUpAndTexts) {
+  const auto disk = shared_data("tfw-disk");
+  if (!std::filesystem::exists(disk)) GTEST_SKIP() << "no ../shared/data/tfw-disk";
+  const std::string setup = (disk / "disk_TFW.json").string(), text = file("disk_amplitude_ours.txt");
+  const Outcome solved =
+      plisse({"wrinkle", setup, "--wrinkle-free", "authors", "-o", text, "--json", file("report.json")});
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  EXPECT_THAT(solved.err, HasSubstr("disk_clamped_vertices.dat, which is not there"));
+  EXPECT_EQ(report()["wrinkle_free_faces"], 136);
+  const double whole = report()["energy_whole_periods_J"];
+  const auto evaluate = [&](const std::string& amplitude, const std::string& one_form) {
+    const Outcome outcome = plisse({"wrinkle", setup, "--wrinkle-free", "authors", "--evaluate", amplitude,
+                                    one_form, "--json", file("report.json"), "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return report();
+  };
+  const auto ours = evaluate(text, file("disk_dphi_ours.txt"));
+  EXPECT_NEAR(ours["energy_J"].get<double>() / whole, 1, 1e-9);  // texts carry all digits
+  const auto theirs =
+      evaluate((disk / "disk_amplitude_simulated.txt").string(), (disk / "disk_dphi_simulated.txt").string());
+  EXPECT_LE(whole, theirs["energy_J"].get<double>());
+  EXPECT_LT(theirs["curl_max"].get<double>(), 1e-6);
+  const auto back = io::read_wrinkle_field(text, disk / "disk_simulated.obj");
+  EXPECT_EQ(back.positions.size(), 273U);
+}
+
+TEST_F(Wrinkle, SaysWhatIsWrong) {
+  EXPECT_EQ(plisse({"wrinkle"}).code, 2);
+  write_text(folder_ / "x.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n");
+  const Outcome no_base = plisse({"wrinkle", file("x.ply")});
+  EXPECT_EQ(no_base.code, 2);
+  EXPECT_THAT(no_base.err, HasSubstr("'face'"));
+  const Outcome name = plisse({"wrinkle", "--example", "strip", "-o", file("field.obj")});
+  EXPECT_EQ(name.code, 2);
+  EXPECT_THAT(name.err, HasSubstr(".ply"));
+  const Outcome rule = plisse({"wrinkle", "--example", "strip", "--wrinkle-free", "papers"});
+  EXPECT_EQ(rule.code, 2);
+  EXPECT_THAT(rule.err, HasSubstr("did you mean"));
+  const Outcome short_of =
+      plisse({"wrinkle", "--example", "stretched-sheet", "--iterations", "1", "-o", file("f.ply")});
+  EXPECT_EQ(short_of.code, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "f.ply"));
+}
+
+}  // namespace
+}  // namespace plisse::test

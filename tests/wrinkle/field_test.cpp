@@ -1,0 +1,139 @@
+// Whole-number periods, and the hard cases of a field: each ends in a sensible field.
+#include "wrinkle/field.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "wrinkle/meshes.h"
+#include "wrinkle/wrinkle_free.h"
+
+namespace plisse::wrinkle {
+namespace {
+
+using Eigen::Vector3d;
+using test::diagonal;
+using test::Grid;
+constexpr double turn = 2 * std::numbers::pi;
+
+// A cylinder of radius r and height .3 m, closed round, under tension along its axis and compressed round it
+// by `compression`: rest faces are a rectangle's, base faces close it. Waves run round; amplitude 0 at the
+// ends.
+struct Tube {
+  shell::Topology topology;
+  std::vector<FaceForms> forms;
+  std::vector<bool> ends;
+
+  explicit Tube(double compression, double poisson = 0.3, double tension = 0.05, double curvature = 0) {
+    constexpr int around = 24, along = 12;
+    const Grid grid(0.6, 0.3, around, along);
+    std::vector<shell::Face> faces;
+    for (shell::Face f : grid.faces) {
+      for (auto& v : f) v = (v / (around + 1)) * around + v % (around + 1) % around;
+      faces.push_back(f);
+    }
+    topology = shell::build_topology(faces, around * (along + 1));
+    forms = test::prescribed(
+        grid, [&](const Vector3d&) { return diagonal(-poisson * tension - compression, tension); },
+        [&](const Vector3d&) { return diagonal(0, curvature); });
+    for (std::size_t v = 0; v < topology.vertex_count; ++v) ends.push_back(v < around || v >= around * along);
+  }
+  Field solve(const Model& model) const {
+    return solve_field(topology, forms, model, std::vector<bool>(forms.size(), false), ends);
+  }
+};
+
+// Corners of one vertex differ by whole turns, and sides by what both faces say.
+void expect_consistent(const shell::Topology& topology, const Field& field) {
+  std::vector<double> first(topology.vertex_count, NAN);
+  for (std::size_t f = 0; f < field.phase.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = topology.faces[f][c];
+      if (!(field.whole.waves.amplitude[v] > 0)) continue;
+      if (std::isnan(first[v])) first[v] = field.phase[f][c];
+      EXPECT_NEAR(std::remainder(field.phase[f][c] - first[v], turn), 0, 1e-9);  // phases up to 1e3, rounding
+    }
+  }
+  EXPECT_TRUE(field.whole.waves.amplitude.allFinite());
+  EXPECT_GE(field.whole.waves.amplitude.minCoeff(), 0);
+}
+
+TEST(WrinkleField, PeriodsBecomeWholeNumbers) {
+  const Tube tube(0.02);
+  const Field field = tube.solve(test::model(1e6, 0.3, 1e-4));
+  ASSERT_TRUE(field.real.converged && field.whole.converged);
+  ASSERT_EQ(field.real.waves.period.size(), 1);
+  const double real = std::abs(field.real.waves.period[0]) / turn,
+               whole = std::abs(field.whole.waves.period[0]) / turn;
+  EXPECT_GT(std::abs(real - std::round(real)), 1e-3);  // else this shows nothing
+  EXPECT_NEAR(whole, std::round(whole), 1e-12);
+  EXPECT_EQ(field.waves, std::round(real));
+  EXPECT_GE(field.whole.energy, field.real.energy * (1 - 1e-9));
+  // dφ is off by what the rounding changed, amplitudes hardly.
+  EXPECT_NEAR(field.phase_residual, std::abs(whole - real) / real, 0.3 * std::abs(whole - real) / real);
+  expect_consistent(tube.topology, field);
+  // The neighbouring whole numbers cost more.
+  const Problem problem(tube.topology, tube.forms, test::model(1e6, 0.3, 1e-4),
+                        std::vector<bool>(tube.forms.size(), false), tube.ends);
+  SolveOptions fixed;
+  fixed.fixed_periods = true;
+  for (const double step : {-1.0, 1.0}) {
+    Waves other = field.whole.waves;
+    other.period[0] += step * turn;
+    EXPECT_GT(solve(problem, other, fixed).energy, field.whole.energy);
+  }
+}
+
+TEST(WrinkleField, NothingToWrinkle) {
+  const Tube tube(0.02);
+  const Field none = solve_field(tube.topology, tube.forms, test::model(1e6, 0.3, 1e-4),
+                                 std::vector<bool>(tube.forms.size(), true));
+  EXPECT_TRUE(none.real.converged);
+  EXPECT_EQ(none.whole.waves.amplitude.maxCoeff(), 0);
+  const Tube tense(-0.2);  // stretched both ways, but nobody said so
+  const Field flat = tense.solve(test::model(1e6, 0.3, 1e-4));
+  EXPECT_TRUE(flat.real.converged) << flat.real.reason;
+  EXPECT_EQ(flat.whole.waves.amplitude.maxCoeff(), 0);
+}
+
+TEST(WrinkleField, OneLiveFace) {
+  const Tube tube(0.02);
+  std::vector<bool> free(tube.forms.size(), true);
+  free[tube.forms.size() / 2] = false;  // all its corners belong to wrinkle-free faces
+  const Field field = solve_field(tube.topology, tube.forms, test::model(1e6, 0.3, 1e-4), free);
+  EXPECT_TRUE(field.real.converged);
+  EXPECT_EQ(field.whole.waves.amplitude.maxCoeff(), 0);
+}
+
+TEST(WrinkleField, PatchesApart) {
+  const Tube tube(0.02);
+  std::vector<bool> free(tube.forms.size(), false);
+  for (std::size_t f = 0; f < free.size(); ++f)
+    free[f] = (f / 48) == 5 || (f / 48) == 6;  // two rows of faces
+  const Field field = solve_field(tube.topology, tube.forms, test::model(1e6, 0.3, 1e-4), free, tube.ends);
+  EXPECT_TRUE(field.real.converged && field.whole.converged) << field.real.reason;
+  EXPECT_EQ(field.whole.waves.period.size(), 2);
+  EXPECT_GT(field.whole.waves.amplitude.maxCoeff(), 0);
+  expect_consistent(tube.topology, field);
+}
+
+TEST(WrinkleField, ExtremeMaterialsAndStrains) {
+  const struct {
+    const char* what;
+    double compression, poisson, thickness, curvature;
+  } cases[] = {{"incompressible", 0.02, 0.5, 1e-4, 0},
+               {"thin as a soap film", 0.02, 0.3, 1e-6, 0},
+               {"collapsed", 0.98, 0.3, 1e-4, 0},
+               {"bent along its crests", 0.02, 0.3, 1e-4, 1.5},
+               {"compressed a little", 1e-6, 0.3, 1e-4, 0}};
+  for (const auto& c : cases) {
+    const Tube tube(c.compression, c.poisson, 0.05 * (c.compression > 0.5 ? 0.01 : 1), c.curvature);
+    const Field field = tube.solve(test::model(1e6, c.poisson, c.thickness));
+    EXPECT_TRUE(field.real.converged) << c.what << ": " << field.real.reason;
+    EXPECT_TRUE(field.whole.converged) << c.what << ": " << field.whole.reason;
+    expect_consistent(tube.topology, field);
+  }
+}
+
+}  // namespace
+}  // namespace plisse::wrinkle
