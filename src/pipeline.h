@@ -14,6 +14,7 @@
 #include "config/settings.h"
 #include "gpu/context.h"
 #include "io/import.h"
+#include "mesh/measure_waves.h"
 #include "scene/animation.h"
 
 namespace plisse {
@@ -163,6 +164,14 @@ struct BakeReport {
 // (EXR in metres, and a PNG to look at), and normals in its MikkTSpace basis. Throws Error(bad_input) where
 // uv is missing or leaves 0…1; islands that overlap are a warning.
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame);
+
+struct MeasureRequest {
+  std::filesystem::path mesh, base;  // base: empty for the mesh's own shape
+  io::ImportOptions options;
+};
+
+// Throws Error(bad_input).
+MeshSpectrum measure(const MeasureRequest& request);
 
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.

@@ -18,6 +18,7 @@ Command add_verify(CLI::App& program);
 Command add_size(CLI::App& program);
 Command add_paint(CLI::App& program);
 Command add_export(CLI::App& program);
+Command add_measure(CLI::App& program);
 Command add_bake(CLI::App& program);
 Command add_drape(CLI::App& program);
 Command add_wrinkle(CLI::App& program);

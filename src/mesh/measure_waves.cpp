@@ -1,0 +1,401 @@
+#include "mesh/measure_waves.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/Sparse>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace plisse {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using std::numbers::pi;
+using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+constexpr int moments = 1024;      // resolution in k: k_max π/2 over this
+constexpr int grid = 4 * moments;  // where the density is looked at
+constexpr int most_waves = 4;
+constexpr int bin_count = 64;
+
+struct Laplacian {
+  Sparse stiffness;  // L, positive semi-definite
+  VectorXd mass;     // lumped: a third of the areas around
+};
+
+glm::dvec3 at(const std::vector<glm::dvec3>& x, const std::vector<std::uint32_t>& triangles, std::size_t i) {
+  return x[triangles[i]];
+}
+
+Laplacian laplacian(const std::vector<glm::dvec3>& x, const std::vector<std::uint32_t>& triangles) {
+  Laplacian result;
+  const auto n = static_cast<Index>(x.size());
+  result.mass = VectorXd::Zero(n);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const double twice = glm::length(glm::cross(at(x, triangles, t + 1) - at(x, triangles, t),
+                                                at(x, triangles, t + 2) - at(x, triangles, t)));
+    if (!(twice > 0)) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = t + (c + 1) % 3, b = t + (c + 2) % 3;
+      const glm::dvec3 corner = at(x, triangles, t + c);
+      // Obtuse corners would make weights negative and the operator indefinite.
+      const double half_cotangent =
+          std::max(0.0, 0.5 * glm::dot(at(x, triangles, a) - corner, at(x, triangles, b) - corner) / twice);
+      const auto i = static_cast<Index>(triangles[a]), j = static_cast<Index>(triangles[b]);
+      entries.emplace_back(i, i, half_cotangent);
+      entries.emplace_back(j, j, half_cotangent);
+      entries.emplace_back(i, j, -half_cotangent);
+      entries.emplace_back(j, i, -half_cotangent);
+      result.mass[static_cast<Index>(triangles[t + c])] += twice / 6;
+    }
+  }
+  result.stiffness.resize(n, n);
+  result.stiffness.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+// x̃ = 1 − 2 M^(-1/2) L M^(-1/2)/λ_max, whose eigenvalues cos θ lie in −1…1: k = √λ_max sin(θ/2).
+struct Scaled {
+  Sparse matrix;
+  double longest = 0;  // √λ_max
+};
+
+Scaled scaled(const Laplacian& laplacian) {
+  const VectorXd root = laplacian.mass.unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 0.0; });
+  const Sparse a = root.asDiagonal() * laplacian.stiffness * root.asDiagonal();
+  // Gershgorin's bound: rows of L sum to 0, so it is at most twice the largest diagonal entry's share.
+  double largest = 0;
+  for (Index i = 0; i < a.rows(); ++i) {
+    double sum = 0;
+    for (Sparse::InnerIterator it(a, i); it; ++it) sum += std::abs(it.value());
+    largest = std::max(largest, sum);
+  }
+  Scaled result;
+  result.longest = std::sqrt(largest);
+  Sparse one(a.rows(), a.cols());
+  one.setIdentity();
+  result.matrix = largest > 0 ? Sparse(one - 2 / largest * a) : one;
+  return result;
+}
+
+// Calls work(m, T_m v) for m = 0 … count − 1.
+template <typename Work>
+void chebyshev(const Sparse& x, const VectorXd& v, int count, const Work& work) {
+  VectorXd before = v, now = x * v;
+  work(0, before);
+  for (int m = 1; m < count; ++m) {
+    work(m, now);
+    VectorXd next = 2 * (x * now) - before;
+    before = std::move(now);
+    now = std::move(next);
+  }
+}
+
+// Jackson's kernel: the density stays positive and a line gets the width π/moments in θ.
+double jackson(int m) {
+  const double n = moments + 1, q = pi / n;
+  return ((n - m) * std::cos(q * m) + std::sin(q * m) / std::tan(q)) / n;
+}
+
+// Power per θ at θ_j = π (j + ½)/grid, its sum the square of v's length.
+std::vector<double> density(const Sparse& x, const VectorXd& v) {
+  std::vector<double> mu(moments, 0.0);
+  VectorXd last;
+  mu[0] = v.squaredNorm();
+  chebyshev(x, v, moments / 2, [&](int m, const VectorXd& t) {
+    // T_2m = 2 T_m² − T_0, T_2m−1 = 2 T_m T_m−1 − T_1: two moments a product.
+    if (m == 1) mu[1] = t.dot(v);
+    if (m >= 1) {
+      mu[static_cast<std::size_t>(2 * m)] = 2 * t.squaredNorm() - mu[0];
+      if (m > 1) mu[static_cast<std::size_t>(2 * m - 1)] = 2 * t.dot(last) - mu[1];
+    }
+    last = t;
+  });
+  // The last odd moment has no product of its own; the kernel takes it to 0 there anyway.
+  std::vector<double> result(grid);
+  tbb::parallel_for(0, grid, [&](int j) {
+    const double theta = pi * (j + 0.5) / grid;
+    double sum = mu[0];
+    for (int m = 1; m < moments; ++m)
+      sum += 2 * jackson(m) * mu[static_cast<std::size_t>(m)] * std::cos(m * theta);
+    result[static_cast<std::size_t>(j)] = std::max(0.0, sum / grid);
+  });
+  return result;
+}
+
+struct Peak {
+  int low = 0, top = 0, high = 0;  // grid places: the minima beside it
+  double power = 0;
+};
+
+// A surface of area A with rims has its modes about π/√A apart, and a wave that does not end on one of them
+// stands in several, like the teeth of a comb: a bell in k as wide makes one hill of them.
+std::vector<double> smoothed(const std::vector<double>& power, double longest, double width) {
+  std::vector<double> result(power.size(), 0.0);
+  const auto wavenumber = [&](int j) { return longest * std::sin(0.5 * pi * (j + 0.5) / grid); };
+  tbb::parallel_for(0, grid, [&](int j) {
+    const double k = wavenumber(j);
+    const auto add = [&](int step) {
+      for (int i = j + step; i >= 0 && i < grid; i += step) {
+        const double apart = (wavenumber(i) - k) / width;
+        if (std::abs(apart) > 4) break;
+        result[static_cast<std::size_t>(j)] +=
+            std::exp(-0.5 * apart * apart) * power[static_cast<std::size_t>(i)];
+      }
+    };
+    result[static_cast<std::size_t>(j)] = power[static_cast<std::size_t>(j)];
+    add(-1);
+    add(1);
+  });
+  return result;
+}
+
+// Hills of `hills`, each from valley to valley, with their share of `power`.
+std::vector<Peak> peaks(const std::vector<double>& power, const std::vector<double>& hills) {
+  std::vector<Peak> found;
+  const auto h = [&](int j) { return hills[static_cast<std::size_t>(j)]; };
+  for (int j = 1; j + 1 < grid; ++j) {
+    if (!(h(j) > h(j - 1) && h(j) >= h(j + 1))) continue;
+    Peak peak{j, j, j, 0};
+    while (peak.low > 0 && h(peak.low - 1) <= h(peak.low)) --peak.low;
+    while (peak.high + 1 < grid && h(peak.high + 1) <= h(peak.high)) ++peak.high;
+    for (int i = peak.low; i <= peak.high; ++i) peak.power += power[static_cast<std::size_t>(i)];
+    found.push_back(peak);
+  }
+  std::sort(found.begin(), found.end(), [](const Peak& a, const Peak& b) { return a.power > b.power; });
+  // A tenth of the strongest's amplitude.
+  while (!found.empty() && (found.size() > most_waves || found.back().power < 0.01 * found.front().power))
+    found.pop_back();
+  return found;
+}
+
+// What of v lies between two angles: Chebyshev series of a step up and a step down.
+std::vector<VectorXd> filtered(const Sparse& x, const VectorXd& v, const std::vector<Peak>& peaks) {
+  std::vector<VectorXd> parts(peaks.size(), VectorXd::Zero(v.size()));
+  chebyshev(x, v, moments, [&](int m, const VectorXd& t) {
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const double low = pi * peaks[i].low / grid, high = pi * (peaks[i].high + 1) / grid;
+      const double c = m == 0 ? (high - low) / pi : 2 / pi * (std::sin(m * high) - std::sin(m * low)) / m;
+      parts[i] += jackson(m) * c * t;
+    }
+  });
+  return parts;
+}
+
+glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
+    const auto x = [&](std::size_t c) {
+      const glm::dvec3 p = field.base[field.triangles[t + c]];
+      return Eigen::Vector3d(p.x, p.y, p.z);
+    };
+    const auto value = [&](std::size_t c) { return f[static_cast<Index>(field.triangles[t + c])]; };
+    const Eigen::Vector3d b = x(1) - x(0), c = x(2) - x(0), normal = b.cross(c);
+    const double square = normal.squaredNorm();
+    if (!(square > 0)) continue;
+    const Eigen::Vector3d slope =
+        ((value(1) - value(0)) * c.cross(normal) + (value(2) - value(0)) * normal.cross(b)) / square;
+    tensor += std::sqrt(square) * slope * slope.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
+  // Round a tube the slopes point all ways: no direction is twice as strong as the next.
+  if (!(solver.eigenvalues()[2] > 2 * solver.eigenvalues()[1])) return glm::dvec3(0);
+  Eigen::Vector3d d = solver.eigenvectors().col(2);
+  Index largest = 0;
+  d.cwiseAbs().maxCoeff(&largest);
+  if (d[largest] < 0) d = -d;
+  return {d.x(), d.y(), d.z()};
+}
+
+// Connected regions where f is above 0, those smaller than a sixteenth of a square wave left out.
+int crests(const HeightField& field, const VectorXd& f, const VectorXd& mass, double wavelength) {
+  std::vector<std::uint32_t> parent(field.base.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (std::size_t i = 0; i < field.triangles.size(); ++i) {
+    const std::uint32_t a = field.triangles[i], b = field.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    if (f[static_cast<Index>(a)] > 0 && f[static_cast<Index>(b)] > 0) parent[root(a)] = root(b);
+  }
+  std::map<std::uint32_t, double> areas;
+  for (std::uint32_t v = 0; v < parent.size(); ++v)
+    if (f[static_cast<Index>(v)] > 0) areas[root(v)] += mass[static_cast<Index>(v)];
+  return static_cast<int>(std::count_if(areas.begin(), areas.end(), [&](const auto& area) {
+    return area.second > wavelength * wavelength / 16;
+  }));
+}
+
+std::vector<glm::dvec3> vertex_normals(const std::vector<glm::dvec3>& x,
+                                       const std::vector<std::uint32_t>& triangles) {
+  std::vector<glm::dvec3> normals(x.size(), glm::dvec3(0));
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const glm::dvec3 area = glm::cross(at(x, triangles, t + 1) - at(x, triangles, t),
+                                       at(x, triangles, t + 2) - at(x, triangles, t));
+    for (std::size_t c = 0; c < 3; ++c) normals[triangles[t + c]] += area;
+  }
+  for (auto& n : normals) {
+    const double length = glm::length(n);
+    n = length > 0 ? n / length : glm::dvec3(0);
+  }
+  return normals;
+}
+
+// The nearest point of a triangle (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5), as weights.
+glm::dvec3 nearest(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0, 1 - w, w};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+}  // namespace
+
+MeshSpectrum measure_waves(const HeightField& field) {
+  MeshSpectrum spectrum;
+  const Laplacian l = laplacian(field.base, field.triangles);
+  const double area = l.mass.sum();
+  if (!(area > 0)) return spectrum;
+  VectorXd f = Eigen::Map<const VectorXd>(field.height.data(), static_cast<Index>(field.height.size()));
+  f.array() -= l.mass.dot(f) / area;
+  const VectorXd root = l.mass.cwiseSqrt(), v = root.cwiseProduct(f);
+  // Roundings of places are no waves.
+  if (!(v.squaredNorm() > 1e-18 * area * area)) return spectrum;
+  const Scaled x = scaled(l);
+  std::vector<double> power = density(x.matrix, v);
+  const auto wavenumber = [&](double j) { return x.longest * std::sin(0.5 * pi * (j + 0.5) / grid); };
+  for (int j = 0; j < grid; ++j) {
+    const double sk = field.smoothing * wavenumber(j) * wavenumber(j);
+    // A base that took more than half of a wave says nothing of it.
+    if (field.smoothing > 0) power[static_cast<std::size_t>(j)] *= sk < 1 ? 0 : std::pow((1 + sk) / sk, 2);
+  }
+
+  const std::vector<double> hills = smoothed(power, x.longest, 0.6 * pi / std::sqrt(area));
+  const std::vector<Peak> found = peaks(power, hills);
+  const std::vector<VectorXd> parts = filtered(x.matrix, v, found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    // The middle of what stands above half of the peak.
+    double sum = 0, mean = 0;
+    for (int j = found[i].low; j <= found[i].high; ++j) {
+      const double p = hills[static_cast<std::size_t>(j)];
+      if (p < 0.5 * hills[static_cast<std::size_t>(found[i].top)]) continue;
+      sum += p;
+      mean += p * wavenumber(j);
+    }
+    MeshWave wave;
+    wave.wavelength = 2 * pi * sum / mean;
+    wave.amplitude = std::sqrt(2 * found[i].power / area);
+    const VectorXd part = root.unaryExpr([](double r) { return r > 0 ? 1 / r : 0.0; }).cwiseProduct(parts[i]);
+    wave.direction = direction_of(field, part);
+    wave.count = crests(field, part, l.mass, wave.wavelength);
+    spectrum.waves.push_back(wave);
+  }
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec3& p : field.base) low = glm::min(low, p), high = glm::max(high, p);
+  const double longest = glm::distance(low, high), shortest = 2 * pi / x.longest;
+  const double step = std::log(longest / shortest) / bin_count;
+  for (int b = 0; b < bin_count; ++b) spectrum.bins.push_back({longest * std::exp(-(b + 0.5) * step), 0});
+  for (int j = 0; j < grid; ++j) {
+    const double place = std::log(longest * wavenumber(j) / (2 * pi)) / step;
+    const auto bin = static_cast<std::size_t>(std::clamp(place, 0.0, bin_count - 1.0));
+    spectrum.bins[bin].power += power[static_cast<std::size_t>(j)] / area;
+  }
+  return spectrum;
+}
+
+HeightField height_over_own_shape(const std::vector<glm::dvec3>& positions,
+                                  const std::vector<std::uint32_t>& triangles) {
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+  HeightField field{positions, std::vector<double>(positions.size(), 0.0), triangles,
+                    std::pow(glm::distance(low, high) / (6 * pi), 2)};
+  // Lengths are to be those of the base, which the first round only guesses by the mesh itself.
+  for (int round = 0; round < 3; ++round) {
+    const Laplacian l = laplacian(field.base, triangles);
+    const VectorXd mass = l.mass.cwiseMax(1e-300);
+    Sparse system = field.smoothing * l.stiffness;
+    for (Index i = 0; i < system.rows(); ++i) system.coeffRef(i, i) += mass[i];
+    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(system);
+    solver.setTolerance(1e-8);
+    std::vector<glm::dvec3> smooth(positions.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      VectorXd x(static_cast<Index>(positions.size()));
+      for (std::size_t i = 0; i < positions.size(); ++i) x[static_cast<Index>(i)] = positions[i][axis];
+      const VectorXd solved = solver.solveWithGuess(mass.cwiseProduct(x), x);
+      for (std::size_t i = 0; i < positions.size(); ++i) smooth[i][axis] = solved[static_cast<Index>(i)];
+    }
+    const auto normals = vertex_normals(smooth, triangles);
+    // Smoothing draws a tube in as a whole; that is no wave, and would make the base's lengths short.
+    double mean = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      field.height[i] = glm::dot(positions[i] - smooth[i], normals[i]);
+      mean += field.height[i] * l.mass[static_cast<Index>(i)] / l.mass.sum();
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      field.height[i] -= mean;
+      field.base[i] = positions[i] - field.height[i] * normals[i];
+    }
+  }
+  return field;
+}
+
+HeightField height_over_base(const std::vector<glm::dvec3>& positions,
+                             const std::vector<std::uint32_t>& triangles, const std::vector<glm::dvec3>& base,
+                             const std::vector<std::uint32_t>& base_triangles) {
+  const auto normals = vertex_normals(base, base_triangles);
+  struct Ball {
+    glm::dvec3 centre;
+    double radius;
+  };
+  std::vector<Ball> balls;
+  for (std::size_t t = 0; t + 2 < base_triangles.size(); t += 3) {
+    Ball ball{glm::dvec3(0), 0};
+    for (std::size_t c = 0; c < 3; ++c) ball.centre += at(base, base_triangles, t + c) / 3.0;
+    for (std::size_t c = 0; c < 3; ++c)
+      ball.radius = std::max(ball.radius, glm::distance(ball.centre, at(base, base_triangles, t + c)));
+    balls.push_back(ball);
+  }
+  HeightField field{positions, std::vector<double>(positions.size(), 0.0), triangles, 0};
+  tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
+    const glm::dvec3 x = positions[i];
+    double least = INFINITY;
+    for (std::size_t t = 0; t < balls.size(); ++t) {
+      if (glm::distance(x, balls[t].centre) - balls[t].radius >= least) continue;
+      std::array<std::uint32_t, 3> id{};
+      for (std::size_t c = 0; c < 3; ++c) id[c] = base_triangles[3 * t + c];
+      const glm::dvec3 w = nearest(x, base[id[0]], base[id[1]], base[id[2]]);
+      const glm::dvec3 p = w.x * base[id[0]] + w.y * base[id[1]] + w.z * base[id[2]];
+      const double distance = glm::distance(x, p);
+      if (distance >= least) continue;
+      least = distance;
+      const glm::dvec3 n = w.x * normals[id[0]] + w.y * normals[id[1]] + w.z * normals[id[2]];
+      field.base[i] = p;
+      field.height[i] = glm::dot(x - p, n) < 0 ? -distance : distance;
+    }
+  });
+  return field;
+}
+
+}  // namespace plisse
