@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "shell/cholesky.h"
@@ -23,16 +24,14 @@ class Search {
  public:
   Search(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start,
          const NewtonSettings& settings, const NewtonProgress& progress)
-      : settings_(settings), progress_(progress), potential_(shell, conditions, loads) {
+      : settings_(settings),
+        progress_(progress),
+        potential_(shell, conditions, loads, start.rowwise().mean()) {
     result_.positions = start;
     for (Eigen::Index v = 0; v < start.cols(); ++v)
       for (int axis = 0; axis < 3; ++axis)
         if (conditions.held(axis, v)) result_.positions(axis, v) = conditions.at(axis, v);
-    // Strains of rounding (1e-16) are forces too; they must not keep a shell at rest from being at rest.
-    double length = 0;
-    for (const RestFace& face : shell.rest) length = std::max(length, std::sqrt(2 * face.area));
-    rounding_force_ = 1e-15 * shell.material.young * shell.material.thickness * length;
-    extent_ = (start.rowwise().maxCoeff() - start.rowwise().minCoeff()).norm();
+    measure(shell);
     for (Eigen::Index v = 0; v < start.cols(); ++v)
       for (std::size_t o = 0; o < loads.obstacles.size(); ++o)
         if (!conditions.held.col(v).all() &&
@@ -62,6 +61,7 @@ class Search {
         continue;
       }
       adapt(step);
+      stalls_ = 0;
       ++result_.iterations;
       note(result_.iterations, value, gradient, step, shift_);
       if (progress_ && !progress_(result_.trace.back(), result_.positions)) {
@@ -73,6 +73,28 @@ class Search {
   }
 
  private:
+  // Positions are rounded, and a shell's stiffness makes forces of it, which nothing can balance; they must
+  // not keep one that nothing pulls at from being at rest. On a regular mesh rows of the bending's Hessian
+  // sum to some 10 B A |∇λ|⁴.
+  void measure(const Shell& shell) {
+    const Material& m = shell.material;
+    const double bending = shell.bending == Bending::off ? 0 : 10 * m.bending_stiffness();
+    Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(result_.positions.cols());  // N/m
+    double area = 0;
+    for (std::size_t f = 0; f < shell.rest.size(); ++f) {
+      area += shell.rest[f].area;
+      for (int k = 0; k < 3; ++k) {
+        const double steep = shell.rest[f].gradients.col(k).squaredNorm();
+        stiffness[shell.topology.faces[f][static_cast<std::size_t>(k)]] +=
+            shell.rest[f].area * steep *
+            (m.young * m.thickness / (1 - m.poisson * m.poisson) + bending * steep);
+      }
+    }
+    rest_extent_ = std::sqrt(area);
+    const double reach = std::max(rest_extent_, result_.positions.cwiseAbs().maxCoeff());
+    rounding_force_ = 4 * std::numeric_limits<double>::epsilon() * reach * stiffness.maxCoeff();
+  }
+
   double allowed(const Potential::Value& value) const {
     return std::max(settings_.tolerance * value.force_scale, rounding_force_);
   }
@@ -89,10 +111,10 @@ class Search {
 
   void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
             double shift) {
-    result_.energy = value.energy;
+    result_.energy = value.energy + potential_.offset();
     result_.force_scale = value.force_scale;
     result_.gradient_inf = gradient.size() > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
-    result_.trace.push_back({iteration, since(began_), value.energy, result_.gradient_inf, step, shift});
+    result_.trace.push_back({iteration, since(began_), result_.energy, result_.gradient_inf, step, shift});
   }
 
   bool finished(const Potential::Value& value, const VectorXd& gradient) {
@@ -153,7 +175,10 @@ class Search {
     double step = potential_.safe_step(result_.positions, direction);
     // No vertex goes farther than half of the whole at once: what is slack has no idea of scale.
     const double longest = direction.cwiseAbs().maxCoeff();
-    if (step * longest > 0.5 * extent_) step = 0.5 * extent_ / longest;
+    const double extent =
+        std::max(rest_extent_,
+                 (result_.positions.rowwise().maxCoeff() - result_.positions.rowwise().minCoeff()).norm());
+    if (step * longest > 0.5 * extent) step = 0.5 * extent / longest;
     // Energies are sums of a term a face, whose rounding adds up like a random walk.
     const double rounding = 1e-16 * (10 + std::sqrt(static_cast<double>(gradient.size()))) * value.terms;
     Positions x;
@@ -183,9 +208,10 @@ class Search {
 
   // No step down the Newton direction: once more with concave parts left out, then with shifts; then give up.
   bool stalled(const Potential::Value& value, const VectorXd& gradient) {
-    const double share = value.force_scale > 0 ? gradient.cwiseAbs().maxCoeff() / value.force_scale : 0;
-    // What rounding of positions leaves of forces that cancel.
-    const bool balanced = share <= std::max(1e-6, settings_.tolerance);
+    const double largest = gradient.cwiseAbs().maxCoeff();
+    const double share = value.force_scale > 0 ? largest / value.force_scale : 0;
+    // What rounding leaves of forces that cancel; a hundredth of that is all that energies can tell.
+    const bool balanced = largest <= 100 * allowed(value);
     if (exact_ && !balanced) {
       exact_ = false;
       return false;
@@ -207,7 +233,7 @@ class Search {
   Cholesky factor_;
   Eigen::SparseMatrix<double> system_;
   Clock::time_point began_ = Clock::now();
-  double rounding_force_ = 0, extent_ = 0, shift_ = 0, least_shift_ = 0;
+  double rounding_force_ = 0, rest_extent_ = 0, shift_ = 0, least_shift_ = 0;
   bool exact_ = false, analysed_ = false;
   int stalls_ = 0;
 };

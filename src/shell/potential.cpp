@@ -62,14 +62,26 @@ double contact_stiffness(const Shell& shell, const Loads& loads) {
 
 }  // namespace
 
-Potential::Potential(const Shell& shell, const Conditions& conditions, const Loads& loads)
+Potential::Potential(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                     const Vector3d& origin)
     : shell_(shell),
       loads_(loads),
       law_{shell.material, shell.stretching, shell.residual},
       vertex_areas_(vertex_areas(shell.topology, shell.rest)),
-      contact_(contact_stiffness(shell, loads)) {
-  if (shell.bending == Bending::quadratic)
+      contact_(contact_stiffness(shell, loads)),
+      origin_(origin),
+      open_sides_(open_sides(shell.topology, conditions)),
+      some_vertex_(shell.topology.component_count, none) {
+  if (shell.bending == Bending::quadratic) {
     quadratic_ = bending_quadratic(shell.material, shell.topology, shell.rest);
+    quadratic_sizes_ = quadratic_.cwiseAbs();
+  }
+  for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v) {
+    const std::uint32_t part = shell.topology.component[v];
+    if (part == none) continue;
+    some_vertex_[part] = v;
+    offset_ -= dead_force(v).dot(origin_);
+  }
   number_unknowns(conditions);
   build_pattern();
 }
@@ -208,6 +220,40 @@ Eigen::Vector3d Potential::obstacle_force(const Vector3d& x, double* energy, Mat
   return gradient;
 }
 
+Vector3d Potential::dead_force(std::uint32_t vertex) const {
+  Vector3d force =
+      shell_.material.density * shell_.material.thickness * vertex_areas_[vertex] * loads_.gravity;
+  if (loads_.forces.size() > 0) force += loads_.forces.col(vertex);
+  return force;
+}
+
+Vector3d Potential::apex(std::uint32_t part, const Positions& x) const {
+  return open_sides_[part].open ? open_sides_[part].apex : Vector3d(x.col(some_vertex_[part]));
+}
+
+double Potential::pressure_energy(const Positions& x, Positions* sum, Positions* size) const {
+  const Topology& topology = shell_.topology;
+  double volume = 0;
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const Face& face = topology.faces[f];
+    const Vector3d from = apex(topology.component[face[0]], x);
+    const Corners corners = corners_of(face, x).colwise() - from;
+    volume += corners.col(0).dot(corners.col(1).cross(corners.col(2))) / 6;
+    if (!sum) continue;
+    const Vector3d area = 0.5 * (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    for (int k = 0; k < 3; ++k) {
+      sum->col(face[static_cast<std::size_t>(k)]) -= loads_.pressure / 3 * area;
+      size->col(face[static_cast<std::size_t>(k)]) += (loads_.pressure / 3 * area).cwiseAbs();
+      if (topology.flaps[f][static_cast<std::size_t>(k)] != none) continue;
+      const int a = (k + 1) % 3, b = (k + 2) % 3;  // the boundary edge runs from a to b
+      const Vector3d side = loads_.pressure / 6 * corners.col(a).cross(corners.col(b));
+      sum->col(face[static_cast<std::size_t>(a)]) += side;
+      sum->col(face[static_cast<std::size_t>(b)]) += side;
+    }
+  }
+  return -loads_.pressure * volume;
+}
+
 Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient) const {
   const Topology& topology = shell_.topology;
   const std::size_t faces = topology.faces.size();
@@ -248,18 +294,18 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
   }
   if (quadratic_.size() > 0)
     for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::VectorXd u = x.row(axis).transpose(), force = quadratic_ * u;
-      count(0.5 * u.dot(force));
+      const Eigen::VectorXd u = x.row(axis).transpose().array() - origin_[axis], force = quadratic_ * u;
+      value.energy += 0.5 * u.dot(force);
+      // Almost all of its summands cancel; what rounding leaves of them does not.
+      value.terms += 0.5 * u.cwiseAbs().dot(quadratic_sizes_ * u.cwiseAbs());
       if (!gradient) continue;
       sum.row(axis) += force.transpose();
       size.row(axis) += force.cwiseAbs().transpose();
     }
-  const double weight = shell_.material.density * shell_.material.thickness;
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
     if (topology.component[v] == none) continue;
-    Vector3d force = weight * vertex_areas_[v] * loads_.gravity;
-    if (loads_.forces.size() > 0) force += loads_.forces.col(v);
-    count(-force.dot(x.col(v)));
+    const Vector3d force = dead_force(v);
+    count(-force.dot(x.col(v) - origin_));
     double contact = 0;
     const Vector3d push_out = obstacle_force(x.col(v), &contact, nullptr, Curvature::exact);
     count(vertex_areas_[v] * contact);
@@ -268,13 +314,7 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
       push(v, vertex_areas_[v] * push_out);
     }
   }
-  if (loads_.pressure != 0) {
-    count(-loads_.pressure * enclosed_volume(topology.faces, x));
-    if (gradient)
-      for (const Face& face : topology.faces)
-        for (std::size_t k = 0; k < 3; ++k)
-          push(face[k], -loads_.pressure / 6 * x.col(face[(k + 1) % 3]).cross(x.col(face[(k + 2) % 3])));
-  }
+  if (loads_.pressure != 0) count(pressure_energy(x, gradient ? &sum : nullptr, &size));
   if (gradient) {
     gradient->resize(unknowns());
     for (std::size_t i = 0; i < scalar_.size(); ++i) {
@@ -296,8 +336,10 @@ void Potential::scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 
       for (int l = 0; l <= k; ++l, ++at) {
         const std::uint32_t a = vertices[static_cast<std::size_t>(k)],
                             b = vertices[static_cast<std::size_t>(l)];
-        if (a == b && k != l) continue;  // stands for a vertex that is not there
-        add(blocks[at], elements[f].template block<3, 3>(3 * k, 3 * l), place_[a] < place_[b]);
+        Matrix3d block = elements[f].template block<3, 3>(3 * k, 3 * l);
+        // One vertex across two edges (it has three triangles), or none across one, whose rows are 0.
+        if (a == b && k != l) block += block.transpose().eval();
+        add(blocks[at], block, place_[a] < place_[b]);
       }
   }
 }
@@ -317,7 +359,9 @@ const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvat
       // + 2.
       for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3, last = (k + 2) % 3;
-        const Matrix3d block = -loads_.pressure / 6 * cross_matrix(corners.col(last));
+        const Matrix3d block =
+            -loads_.pressure / 6 *
+            cross_matrix(corners.col(last) - apex(topology.component[topology.faces[f][0]], x));
         stretch[f].block<3, 3>(3 * k, 3 * next) -= block;
         stretch[f].block<3, 3>(3 * next, 3 * k) += block;
       }

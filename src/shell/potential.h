@@ -14,14 +14,18 @@ namespace plisse::shell {
 // third of the size of the matrix, so a ninth of the work).
 class Potential {
  public:
-  // Keeps references. Which coordinates are held is fixed from here on, where to is not.
-  Potential(const Shell& shell, const Conditions& conditions, const Loads& loads);
+  // Keeps references. Which coordinates are held is fixed from here on, where to is not. `origin`: where
+  // gravity and dead forces have no energy and bending is measured from; near the shell rounding is least.
+  // Forces do not depend on it, and offset() is what energies lack beside those from the world's origin.
+  Potential(const Shell& shell, const Conditions& conditions, const Loads& loads,
+            const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+  double offset() const { return offset_; }
 
   Eigen::Index unknowns() const { return static_cast<Eigen::Index>(scalar_.size()); }
 
   struct Value {
     double energy = 0;       // J; infinite where a vertex is inside an obstacle
-    double terms = 0;        // sum of the parts' absolute values, J: what rounding is relative to
+    double terms = 0;        // sum of the summands' absolute values, J: what rounding is relative to
     double force_scale = 0;  // N: largest sum of absolute forces of elements and loads on a vertex
   };
   // `gradient`: one entry an unknown, N.
@@ -53,6 +57,12 @@ class Potential {
   template <int Vertices>
   void scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>>& elements,
                const std::vector<std::uint32_t>& blocks);
+  // −p V and its derivative. Corners get a third of their faces' load each; what the cones' open sides add
+  // along the boundary is no force of the sheet, so it counts as none in `size`.
+  double pressure_energy(const Positions& x, Positions* sum, Positions* size) const;
+  Eigen::Vector3d dead_force(std::uint32_t vertex) const;
+  // Where the cones under a part's faces meet: anywhere if it is closed, else the place check() asks for.
+  Eigen::Vector3d apex(std::uint32_t part, const Positions& x) const;
   Eigen::Vector3d obstacle_force(const Eigen::Vector3d& x, double* energy, Eigen::Matrix3d* curvature,
                                  Curvature kind) const;
 
@@ -60,11 +70,16 @@ class Potential {
   const Loads& loads_;
   StretchingLaw law_;
   Eigen::VectorXd vertex_areas_, unknown_areas_;
-  double contact_ = 0;                                    // N/m³
+  double contact_ = 0;  // N/m³
+  Eigen::Vector3d origin_;
+  double offset_ = 0;                                     // J
+  std::vector<OpenSide> open_sides_;                      // of each part
+  std::vector<std::uint32_t> some_vertex_;                // of each part
   std::vector<std::uint32_t> place_;                      // of a vertex in the order of elimination
   std::vector<std::uint32_t> scalar_;                     // 3·vertex + axis of each unknown
   std::vector<std::array<std::int32_t, 3>> unknown_;      // of each vertex and axis, −1: held
   Eigen::SparseMatrix<double> quadratic_;                 // V×V, or empty
+  Eigen::SparseMatrix<double> quadratic_sizes_;           // absolute values of the same
   std::vector<Block> blocks_;                             // sorted by column, then row
   std::vector<std::uint32_t> first_block_;                // of each column
   std::vector<std::uint32_t> face_blocks_, flap_blocks_;  // 6 or 21 a face: pairs (k ≥ l) of its vertices

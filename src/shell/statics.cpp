@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -34,26 +36,87 @@ double enclosed_volume(const std::vector<Face>& faces, const Positions& position
   return six / 6;
 }
 
+std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& conditions) {
+  std::vector<OpenSide> sides(topology.component_count);
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, topology.component_count), count = sum;
+  // The apex: amid what is held, but in the planes in which edges may slide.
+  std::vector<std::array<bool, 3>> bound(topology.component_count, {false, false, false});
+  const auto clamped = [&](std::uint32_t v) { return conditions.held.col(v).all(); };
+  for (const int pass : {0, 1})
+    for (const Edge& edge : topology.edges) {
+      if (!edge.boundary()) continue;
+      const auto [a, b] = edge.vertex;
+      const std::uint32_t part = topology.component[a];
+      OpenSide& side = sides[part];
+      side.open = true;
+      if (pass == 0) {
+        for (const std::uint32_t v : edge.vertex)
+          for (int axis = 0; axis < 3; ++axis)
+            if (conditions.held(axis, v)) {
+              sum(axis, part) += conditions.at(axis, v);
+              count(axis, part) += 1;
+            }
+        continue;
+      }
+      if (clamped(a) && clamped(b)) continue;
+      bool slides = false;
+      for (int axis = 0; axis < 3 && !slides; ++axis) {
+        if (!conditions.held(axis, a) || !conditions.held(axis, b)) continue;
+        const double at = conditions.at(axis, a);
+        if (conditions.at(axis, b) != at) continue;
+        auto& taken = bound[part][static_cast<std::size_t>(axis)];
+        if (taken && side.apex[axis] != at) continue;
+        taken = slides = true;
+        side.apex[axis] = at;
+      }
+      if (!slides) side.loose = clamped(a) ? b : a;
+    }
+  for (std::uint32_t part = 0; part < topology.component_count; ++part)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!bound[part][static_cast<std::size_t>(axis)] && count(axis, part) > 0)
+        sides[part].apex[axis] = sum(axis, part) / count(axis, part);
+  return sides;
+}
+
 namespace {
 
-// What pulls at a part as a whole; empty: nothing does.
-std::string pull_on(const Shell& shell, const Loads& loads, std::uint32_t component) {
-  if (loads.gravity.norm() > 0 && shell.material.density > 0) return "gravity pulls at it";
-  if (loads.forces.size() > 0) {
-    Vector3d sum = Vector3d::Zero();
-    double size = 0;
-    for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v)
-      if (shell.topology.component[v] == component) {
-        sum += loads.forces.col(v);
-        size += loads.forces.col(v).norm();
-      }
-    if (sum.norm() > 1e-9 * size) return "forces pull at it that do not cancel";
+struct Pull {
+  Vector3d force = Vector3d::Zero();  // N, along axes in which nothing is held
+  std::string what;                   // pulls; empty: nothing does
+};
+
+Pull pull_on(const Shell& shell, const Conditions& conditions, const Loads& loads, std::uint32_t part) {
+  const Eigen::VectorXd areas = vertex_areas(shell.topology, shell.rest);
+  Vector3d weight = Vector3d::Zero(), sum = Vector3d::Zero();
+  double size = 0;
+  Eigen::Array3d free = Eigen::Array3d::Ones();
+  for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v) {
+    if (shell.topology.component[v] != part) continue;
+    free *= 1 - conditions.held.col(v).array().cast<double>();
+    weight += shell.material.density * shell.material.thickness * areas[v] * loads.gravity;
+    if (loads.forces.size() == 0) continue;
+    sum += loads.forces.col(v);
+    size += loads.forces.col(v).norm();
   }
-  if (loads.pressure != 0)
-    for (const Edge& edge : shell.topology.edges)
-      if (edge.boundary() && shell.topology.component[edge.vertex[0]] == component)
-        return "pressure pushes it, which is open";
-  return "";
+  Pull pull;
+  pull.force = free * (weight + sum).array();
+  // 1e-9: what cancels does so up to rounding of as many summands.
+  if (pull.force.norm() <= 1e-9 * (weight.norm() + size)) return pull;
+  pull.what = (free * weight.array()).matrix().norm() > 0 ? "gravity pulls at it"
+                                                          : "forces pull at it that do not cancel";
+  return pull;
+}
+
+// Whether a point that goes straight on comes as near to a body as it is pushed from. All bodies are convex:
+// a way that leads off leads off for good.
+bool lands(const Obstacle& obstacle, Vector3d point, const Vector3d& way, double gap) {
+  for (int step = 0; step < 10000; ++step) {
+    const Distance d = distance(obstacle, point);
+    if (d.value <= gap) return true;
+    if (d.first.dot(way) >= 0) return false;
+    point += std::max(d.value - 0.5 * gap, 0.5 * gap) * way;
+  }
+  return true;  // along its side for very long
 }
 
 }  // namespace
@@ -79,23 +142,33 @@ void check(const Shell& shell, const Conditions& conditions, const Loads& loads,
   check(shell.material);
 
   std::vector<std::uint32_t> some_vertex(shell.topology.component_count, none);
-  std::vector<bool> kept(shell.topology.component_count, !loads.obstacles.empty());
   for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v) {
     const std::uint32_t part = shell.topology.component[v];
     if (part == none) continue;
     if (some_vertex[part] == none) some_vertex[part] = v;
-    if (conditions.held.col(v).any()) kept[part] = true;
     if (!conditions.held.col(v).all()) continue;
     for (std::size_t o = 0; o < loads.obstacles.size(); ++o)
       if (distance(loads.obstacles[o], conditions.at.col(v)).value <= 0)
         add(fmt::format("vertex {} is held inside obstacle {}", v, o));
   }
+  const auto sides = open_sides(shell.topology, conditions);
   for (std::uint32_t part = 0; part < shell.topology.component_count; ++part) {
-    if (kept[part]) continue;
-    const std::string pull = pull_on(shell, loads, part);
-    if (!pull.empty())
-      add(fmt::format("part {} (the one with vertex {}) is held by nothing and {}: hold some of its vertices",
-                      part, some_vertex[part], pull));
+    const std::string named = fmt::format("part {} (the one with vertex {})", part, some_vertex[part]);
+    if (loads.pressure != 0 && sides[part].open && sides[part].loose != none)
+      add(fmt::format(
+          "{}: pressure pushes it, which is open, and its boundary is loose at vertex {}: hold it "
+          "all round, or in one plane across an axis",
+          named, sides[part].loose));
+    const Pull pull = pull_on(shell, conditions, loads, part);
+    if (pull.what.empty()) continue;
+    bool caught = false;
+    for (std::uint32_t v = 0; v < shell.topology.vertex_count && !caught; ++v)
+      for (std::size_t o = 0; o < loads.obstacles.size() && !caught; ++o)
+        caught = shell.topology.component[v] == part &&
+                 lands(loads.obstacles[o], start.col(v), pull.force.normalized(), loads.gap);
+    if (!caught)
+      add(fmt::format("{} is held by nothing and {}: hold some of its vertices{}", named, pull.what,
+                      loads.obstacles.empty() ? "" : ", or put an obstacle in its way"));
   }
   if (!problems.empty()) throw Error(ExitCode::bad_input, problems);
 }

@@ -35,16 +35,27 @@ struct Conditions {
 
 struct Loads {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², on density × thickness × rest area
-  double pressure = 0;  // Pa, along the faces' normals. The volume of an open shell is that of its cone to
-                        // the origin: right where its boundary is held, or lies in planes through the origin
+  double pressure = 0;  // Pa, along the faces' normals; of parts that are open see OpenSide
   Positions forces;     // N, 3×V or empty
   std::vector<Obstacle> obstacles;
   double gap = 1e-3;             // m: obstacles begin to push this far off
   double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
 };
 
+// The volume that pressure works on, of a part that is open, is that of cones from its faces to an apex:
+// right where nothing moves that the open side's own cones would push at. So the boundary's edges must be
+// held at both ends, either altogether or in the one plane across an axis in which they may slide (a symmetry
+// plane), which then goes through the apex.
+struct OpenSide {
+  bool open = false;
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero();  // m
+  std::uint32_t loose = none;  // a vertex of the boundary that is not held so; none: there is none
+};
+std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& conditions);  // of each part
+
 // Throws Error(bad_input), all problems at once: counts that do not agree, values that are not finite, a part
-// of the shell that is pulled at and held by nothing (its number, a vertex of it and what pulls), an obstacle
+// of the shell that is pulled at along an axis, held by nothing in it and not above an obstacle that it would
+// land on (its number, a vertex of it and what pulls), pressure on a part with a loose boundary, an obstacle
 // that a held vertex lies in.
 void check(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start);
 

@@ -80,6 +80,33 @@ TEST(ShellPotential, DerivativesAtThreeSteps) {
   }
 }
 
+// Two edges of a triangle may have one vertex across them both: where three triangles meet.
+TEST(ShellPotential, VerticesOfThreeTriangles) {
+  std::mt19937 engine(8);
+  test::Mesh mesh;
+  mesh.positions.resize(3, 4);
+  mesh.positions << 0, 1, 0.4, 0.5, 0, 0.1, 1, 0.3, 0, 0, 0, 0;
+  mesh.faces = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const Shell shell = shell_of(mesh, Bending::midedge, Stretching::stvk);
+  const Conditions conditions(4);
+  const Loads loads;
+  Potential potential(shell, conditions, loads);
+  Positions x = bulged(mesh);
+  x(2, 3) += 0.3;
+  const MatrixXd hessian = MatrixXd(potential.hessian(x, Curvature::exact)).selfadjointView<Eigen::Lower>();
+  test::expect_derivative(
+      [&](const VectorXd& by) {
+        Positions there = x;
+        potential.advance(there, by, 1);
+        VectorXd g;
+        potential.value(there, &g);
+        return g;
+      },
+      [&](const VectorXd& d) { return VectorXd(hessian * d); }, VectorXd(VectorXd::Zero(12)), 0.1, engine);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen{MatrixXd(potential.hessian(x, Curvature::positive))};
+  EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * eigen.eigenvalues()[11]);
+}
+
 TEST(ShellPotential, VolumeOfABox) {
   const std::vector<Face> faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
