@@ -115,6 +115,9 @@ DrapeScene scene_of(const Arguments& arguments) {
                               arguments.perturb, length_units));
     scene.perturb = *length;
   }
+  if (!arguments.residual.empty() && scene.stretching == shell::Stretching::stvk)
+    throw Error(ExitCode::bad_input,
+                "--residual is for tension fields: a stvk shell has all of its stiffness when it is slack");
   if (!arguments.residual.empty()) scene.residual = number_in("--residual", arguments.residual, 0, 1);
   if (!arguments.tolerance.empty())
     scene.newton.tolerance = number_in("--tolerance", arguments.tolerance, 1e-14, 1);
@@ -164,6 +167,7 @@ ordered_json to_json(const DrapeReport& report, const std::string& model) {
     json["measures"] = frames.back()["measures"];
   }
   json["interrupted"] = report.interrupted;
+  if (!report.failure.empty()) json["failure"] = report.failure;
   json["wall_s"] = report.wall_s;
   json["peak_rss_MiB"] = report.peak_rss_MiB;
   json["outputs"] = outputs;
@@ -204,6 +208,7 @@ int run_drape(Arguments& arguments) {
   }
   for (const auto& path : report.outputs) log::notice(fmt::format("→ {}", path.string()));
   write_report(to_json(report, model), arguments.common.json());
+  if (!report.failure.empty()) throw Error(report.failure_code, report.failure);
   if (report.interrupted) return 128 + signal_number();
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
 }

@@ -170,9 +170,9 @@ const std::vector<Key>& keys() {
          s.obstacles.back().kind = static_cast<Obstacle::Kind>(found - words.begin());
        }},
       {"obstacle", "at", "[x, y, z], lengths",
-       "Centre, a point of the plane, or one end of the capsule's axis.",
+       "Centre, a point of the plane, or one end of the capsule's axis; must be there.",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().at = point_of(n); }},
-      {"obstacle", "to", "[x, y, z], lengths", "The other end of a capsule's axis.",
+      {"obstacle", "to", "[x, y, z], lengths", "The other end of a capsule's axis; must be there for one.",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().to = point_of(n); }},
       {"obstacle", "normal", "[x, y, z]", "Out of a plane's solid side (default [0, 1, 0]).",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().normal = direction_of(n); }},
@@ -220,6 +220,9 @@ void check_item(const std::string& name, const toml::table& table, const DrapeSe
     complaints.add(at, "[[hold]] needs either 'box' or 'vertices'");
   if (name != "obstacle") return;
   if (!table.contains("kind")) complaints.add(at, "key 'kind': missing; allowed: sphere, plane or capsule");
+  if (!table.contains("at")) complaints.add(at, "key 'at': missing; where the obstacle is");
+  if (settings.obstacles.back().kind == Obstacle::Kind::capsule && !table.contains("to"))
+    complaints.add(at, "key 'to': missing; capsules need the other end of their axis");
   if (settings.obstacles.back().kind != Obstacle::Kind::plane && !table.contains("radius"))
     complaints.add(at, "key 'radius': missing; spheres and capsules need it");
 }

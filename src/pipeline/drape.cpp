@@ -29,18 +29,41 @@ double peak_rss_MiB() {
 }
 
 // A flat St. Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing
-// disturbs it.
-Positions perturbed(const DrapeScene& scene) {
-  Positions positions = scene.start;
+// disturbs it. What obstacles push at stays where it is.
+Positions perturbed(const DrapeScene& scene, const shell::Conditions& conditions, Positions positions) {
   if (scene.perturb == 0) return positions;
-  const shell::Conditions conditions = scene.conditions(0);
   std::mt19937 random(1);
-  for (Eigen::Index v = 0; v < positions.cols(); ++v)
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    Eigen::Vector3d moved = positions.col(v);
     for (int axis = 0; axis < 3; ++axis) {
       const double share = static_cast<double>(random()) / 2147483647.5 - 1;  // −1 … 1, the same everywhere
-      if (!conditions.held(axis, v)) positions(axis, v) += scene.perturb * share;
+      if (!conditions.held(axis, v)) moved[axis] += scene.perturb * share;
     }
+    const bool touches = std::any_of(
+        scene.loads.obstacles.begin(), scene.loads.obstacles.end(), [&](const shell::Obstacle& obstacle) {
+          return std::min(shell::distance(obstacle, moved).value,
+                          shell::distance(obstacle, positions.col(v)).value) < scene.loads.gap;
+        });
+    if (!touches) positions.col(v) = moved;
+  }
   return positions;
+}
+
+// A point cache beside `output`: times are those of the frames in the scene, 24 a second.
+std::filesystem::path write_cache(const std::filesystem::path& output, const std::vector<int>& frames,
+                                  const std::vector<Positions>& positions) {
+  const auto path = std::filesystem::path(output).replace_extension(".pc2");
+  std::vector<double> times;
+  for (const int frame : frames) times.push_back((frame - 1) / 24.0);
+  io::PointCacheWriter writer(path, static_cast<std::size_t>(positions.front().cols()), times);
+  for (const Positions& frame : positions) {
+    std::vector<glm::dvec3> points;
+    for (Eigen::Index v = 0; v < frame.cols(); ++v)
+      points.emplace_back(frame(0, v), frame(1, v), frame(2, v));
+    writer.add(points);
+  }
+  writer.commit();
+  return path;
 }
 
 std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame) {
@@ -112,16 +135,34 @@ DrapeReport drape(const DrapeRequest& request) {
         fmt::format("{}: base surfaces are written as PLY; end the name with .ply", request.output.string()));
   const std::vector<int> picked =
       request.frames.empty() ? std::vector<int>{scene.frames} : select_frames(request.frames, scene.frames);
-  const bool from_start = picked.size() > 1 || picked.front() < scene.frames;
+  for (std::size_t k = 2; k < picked.size() && !pattern; ++k)
+    if (picked[k] - picked[k - 1] != picked[1] - picked[0])
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("--frames {}: a point cache wants frames evenly spaced; for a file a frame give "
+                      "a pattern, such as -o base_####.ply",
+                      request.frames));
   check_writable(pattern ? frame_file(request.output, picked.front()) : request.output);
 
   const shell::Shell shell = shell_of(scene);
   DrapeReport report;
   report.vertices = shell.topology.vertex_count;
   report.faces = shell.topology.faces.size();
-  Positions positions = perturbed(scene);
+  Positions positions = scene.start;
+  std::vector<int> cached;
   std::vector<Positions> cache;
-  for (int n = from_start ? 1 : scene.frames; n <= picked.back() && !report.interrupted; ++n) {
+  const auto write = [&](DrapeFrame frame) {
+    if (scene.measures) frame.measures = scene.measures(positions);
+    if (pattern || report.frames.empty()) {
+      const auto path = pattern ? frame_file(request.output, frame.frame) : request.output;
+      write_base(path, scene, frame, positions);
+      frame.path = path.string();
+      report.outputs.push_back(path);
+    }
+    report.converged &= frame.equilibrium.converged;
+    report.frames.push_back(std::move(frame));
+  };
+  for (int n = 1; n <= picked.back() && !report.interrupted; ++n) {
     DrapeFrame frame;
     frame.frame = n;
     frame.load = scene.frames > 1 ? static_cast<double>(n - 1) / (scene.frames - 1) : 1;
@@ -130,45 +171,34 @@ DrapeReport drape(const DrapeRequest& request) {
     // moves.
     const Positions start =
         scene.loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
-    frame.equilibrium = shell::find_equilibrium(shell, conditions, scene.loads, start, scene.newton,
-                                                [&](const shell::NewtonStep& step, const Positions&) {
-                                                  if (request.progress)
-                                                    request.progress(n, scene.frames, step);
-                                                  return !interrupted();
-                                                });
+    try {
+      frame.equilibrium =
+          shell::find_equilibrium(shell, conditions, scene.loads, perturbed(scene, conditions, start),
+                                  scene.newton, [&](const shell::NewtonStep& step, const Positions&) {
+                                    if (request.progress) request.progress(n, scene.frames, step);
+                                    return !interrupted();
+                                  });
+    } catch (const Error& error) {
+      if (report.frames.empty()) throw;  // nothing was made yet
+      report.failure = fmt::format("frame {}: {}", n, error.what());
+      report.failure_code = error.code;
+      report.converged = false;
+      break;
+    }
     positions = frame.equilibrium.positions;
     report.interrupted = interrupted() && !frame.equilibrium.converged;
     const bool wanted = std::find(picked.begin(), picked.end(), n) != picked.end();
-    if (!wanted && !report.interrupted) {
+    if (wanted) {
+      cached.push_back(n);
+      cache.push_back(positions);
+    } else if (!report.interrupted) {
       if (!frame.equilibrium.converged)
         log::warn(fmt::format("frame {} on the way did not converge: {}", n, frame.equilibrium.reason));
       continue;
     }
-    report.converged &= frame.equilibrium.converged;
-    if (scene.measures) frame.measures = scene.measures(positions);
-    if (pattern || cache.empty()) {
-      const auto path = pattern ? frame_file(request.output, n) : request.output;
-      write_base(path, scene, frame, positions);
-      frame.path = path.string();
-      report.outputs.push_back(path);
-    }
-    cache.push_back(positions);
-    report.frames.push_back(std::move(frame));
+    write(std::move(frame));
   }
-  if (!pattern && cache.size() > 1) {
-    const auto path = std::filesystem::path(request.output).replace_extension(".pc2");
-    std::vector<double> times;
-    for (std::size_t f = 0; f < cache.size(); ++f) times.push_back(static_cast<double>(f) / 24);
-    io::PointCacheWriter writer(path, report.vertices, times);
-    for (const Positions& frame : cache) {
-      std::vector<glm::dvec3> points;
-      for (Eigen::Index v = 0; v < frame.cols(); ++v)
-        points.emplace_back(frame(0, v), frame(1, v), frame(2, v));
-      writer.add(points);
-    }
-    writer.commit();
-    report.outputs.push_back(path);
-  }
+  if (!pattern && cache.size() > 1) report.outputs.push_back(write_cache(request.output, cached, cache));
   report.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
   report.peak_rss_MiB = peak_rss_MiB();
   return report;

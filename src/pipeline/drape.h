@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "pipeline/drape_scene.h"
 
 namespace plisse {
@@ -35,13 +36,17 @@ struct DrapeReport {
   std::vector<std::filesystem::path> outputs;
   bool converged = true;  // all that were asked for
   bool interrupted = false;
+  std::string failure;  // why a frame could not begin, with its number; empty: all could
+  ExitCode failure_code = ExitCode::fine;
   double wall_s = 0, peak_rss_MiB = 0;
 };
 
-// Solves the frames in order, each from the one before, carried to where it is held; what is not asked for is
-// solved on the way. Several frames into one file: the first as base.ply, all of them as base.pc2 beside it.
-// A solver that stops short of its rule has its last state written, marked in the file and the report. An
-// interrupt ends the run after the step, with the last good state written. Throws Error.
+// Solves the frames in order from the first, each from the one before, carried to where it is held; what is
+// not asked for is solved on the way: the frames are the load's steps. Several frames into one file: the
+// first as base.ply, all of them as base.pc2 beside it. A solver that stops short of its rule has its last
+// state written, marked in the file and the report. An interrupt ends the run after the step, with the last
+// good state written; so does a frame that cannot begin
+// (`failure`), once there is another to write. Throws Error.
 DrapeReport drape(const DrapeRequest& request);
 
 // Throws Error(bad_input) where rest and base faces do not belong together.

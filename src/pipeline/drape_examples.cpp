@@ -178,8 +178,8 @@ DrapeScene regular_cylinder(const Wanted& wanted, Diagonals diagonals) {
 // ----------------------------------------------------
 
 // An edge that crosses the panel from one seam vertex to another would be sewn to its twin: it gets a vertex
-// in its middle.
-void split_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
+// in its middle. True where there was one; neighbours that share a triangle need another turn.
+bool split_some_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
   std::vector<bool> on_seam(static_cast<std::size_t>(mesh.points.cols()), false);
   for (const std::uint32_t v : seam) on_seam[v] = true;
   const auto topology = shell::build_topology(mesh.faces, on_seam.size());
@@ -200,12 +200,14 @@ void split_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
       mesh.faces.push_back(other);
     }
   }
+  return std::find(split.begin(), split.end(), true) != split.end();
 }
 
 // The panels lie in the plane y = 0 and bulge apart; seams stay in that plane, of which the whole is a mirror
 // image. What is left of rigid motions is taken by three more coordinates that a symmetric shape needs not.
 DrapeScene pillow(FlatMesh mesh, const std::vector<std::uint32_t>& seam, double bulge) {
-  split_chords(mesh, seam);
+  while (split_some_chords(mesh, seam)) {
+  }
   const auto count = static_cast<std::uint32_t>(mesh.points.cols());
   DrapeScene scene;
   scene.rest.resize(3, 2 * count);

@@ -253,6 +253,8 @@ DrapeScene scene_of(Setup& setup) {
   scene.bending = bending == "quadratic" || (bending.empty() && stretching != "StVK")
                       ? shell::Bending::quadratic
                       : shell::Bending::midedge;
+  if (!bending.empty() && bending != "quadratic" && bending != "StVK")
+    setup.complain(fmt::format("key 'bending_type': '{}'; allowed: quadratic or StVK", bending));
   const std::string rest = setup.text("rest_mesh");
   if (rest.empty()) setup.complain("key 'rest_mesh': missing; an OBJ is wanted");
   setup.throw_if_any();

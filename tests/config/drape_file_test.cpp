@@ -19,7 +19,7 @@ TEST(DrapeFile, ReadsWhatItSays) {
       "[material]\nthickness = \"0.5 mm\"\n[loads]\ngravity = [0, 0, -1]\n"
       "[[hold]]\nbox = [[1, 0, 2], [0, 1, 0]]\naxes = \"xz\"\nturn = 90\n"
       "[[hold]]\nvertices = [3, 4]\n"
-      "[[obstacle]]\nkind = \"plane\"\nnormal = [0, 0, 2]\n",
+      "[[obstacle]]\nkind = \"plane\"\nat = [0, 0, 0]\nnormal = [0, 0, 2]\n",
       "cloth.toml");
   EXPECT_DOUBLE_EQ(s.panel[0], 0.6);
   EXPECT_EQ(s.vertices, 800);

@@ -102,6 +102,17 @@ TEST(Drape, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused({"--example", "strip", "--model", "stvq"}), HasSubstr("did you mean 'stvk'"));
   EXPECT_THAT(refused({"--example", "strip", "--frames", "25"}), HasSubstr("24"));
   EXPECT_THAT(refused({}), HasSubstr("give a SCENE.toml"));
+  EXPECT_THAT(refused({"--example", "cantilever", "--residual", "0.1"}), HasSubstr("is for tension fields"));
+  EXPECT_THAT(refused({"--example", "strip", "--frames", "1,2,5"}), HasSubstr("evenly spaced"));
+  write_text(
+      folder / "odd.json",
+      "{\"youngs_modulus\": 1e6, \"poisson_ratio\": 0.3, \"thickness\": 1e-3, \"rest_mesh\": \"x.obj\", "
+      "\"bending_type\": \"qadratic\"}");
+  EXPECT_THAT(refused({(folder / "odd.json").string()}), HasSubstr("'qadratic'; allowed: quadratic"));
+  write_text(folder / "capsule.toml",
+             "[drape]\npanel = [1, 1]\n[[obstacle]]\nkind = \"capsule\"\nradius = 0.1\n");
+  EXPECT_THAT(refused({(folder / "capsule.toml").string()}),
+              AllOf(HasSubstr("key 'at': missing"), HasSubstr("key 'to': missing")));
   write_text(folder / "bad.toml",
              "[drape]\npanel = [1]\nvertice = 5\n[material]\npoisson = 0.6\n[[hold]]\nturn = "
              "1\n[[obstacle]]\nkind = \"cube\"\n");
@@ -136,28 +147,75 @@ TEST(Drape, SceneFiles) {
   EXPECT_NEAR(high, -0.05, 1e-12);
 }
 
-// A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top.
+// A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top, frame by frame.
 TEST(Drape, ClothIsNotCarriedThroughObstacles) {
   const TemporaryFolder folder;
   write_text(folder / "over.toml",
-             "[drape]\npanel = [0.4, 0.4]\nvertices = 150\nplane = \"xz\"\n"
+             "[drape]\npanel = [0.4, 0.4]\nvertices = 150\nplane = \"xz\"\nframes = 4\n"
              "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n"
              "[[hold]]\nbox = [[-0.001, -1, -1], [0.001, 1, 1]]\nmove = [0.05, -0.35, 0]\n"
              "[[hold]]\nbox = [[0.399, -1, -1], [0.401, 1, 1]]\nmove = [-0.05, -0.35, 0]\n"
              "[[obstacle]]\nkind = \"sphere\"\nat = [0.2, -0.11, -0.2]\nradius = \"10 cm\"\n");
-  const std::string base = (folder / "base.ply").string();
-  const Outcome outcome = plisse({"drape", (folder / "over.toml").string(), "-o", base});
+  const std::vector<std::string> command = {"drape", (folder / "over.toml").string(), "--frames", "1-4",
+                                            "-o",    (folder / "base_#.ply").string()};
+  const Outcome outcome = plisse(command);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::Ply ply = io::read_ply(base);
-  const auto* vertex = ply.find("vertex");
-  double high = -1;
-  for (std::size_t v = 0; v < vertex->count; ++v) {
-    const double x = vertex->find("x")->values[v] - 0.2, y = vertex->find("y")->values[v] + 0.11,
-                 z = vertex->find("z")->values[v] + 0.2;
-    EXPECT_GT(std::sqrt(x * x + y * y + z * z), 0.1);
-    high = std::max(high, y);
+  for (const char* name : {"base_1.ply", "base_2.ply", "base_3.ply", "base_4.ply"}) {
+    const io::Ply ply = io::read_ply(folder / name);
+    const auto* vertex = ply.find("vertex");
+    double high = -1;
+    for (std::size_t v = 0; v < vertex->count; ++v) {
+      const double x = vertex->find("x")->values[v] - 0.2, y = vertex->find("y")->values[v] + 0.11,
+                   z = vertex->find("z")->values[v] + 0.2;
+      EXPECT_GT(std::sqrt(x * x + y * y + z * z), 0.1) << name;
+      high = std::max(high, y);
+    }
+    EXPECT_GT(high, 0.09) << name;  // over its top, near the pole
   }
-  EXPECT_GT(high, 0.09);  // over its top, near the pole
+}
+
+// What is held goes into the ground in the last frame: those before are kept, and said to be all.
+TEST(Drape, AFrameThatCannotBeginLeavesThoseBefore) {
+  const TemporaryFolder folder;
+  write_text(folder / "down.toml",
+             "[drape]\npanel = [0.4, 0.4]\nvertices = 60\nframes = 5\n[material]\ndensity = 200\n"
+             "[[hold]]\nbox = [[-1, -1, -1], [1, 1, 1]]\nmove = [0, -1, 0]\n"
+             "[[obstacle]]\nkind = \"plane\"\nat = [0, -0.6, 0]\n");
+  const std::string base = (folder / "base.ply").string(), report = (folder / "report.json").string();
+  const Outcome outcome =
+      plisse({"drape", (folder / "down.toml").string(), "--frames", "1-5", "-o", base, "--json", report});
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("frame 4"), HasSubstr("held inside obstacle 0")));
+  const auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_EQ(json["frames"].size(), 3u);  // −.25, −.5; −.75 is below the ground
+  EXPECT_THAT(json["failure"].get<std::string>(), HasSubstr("frame 4"));
+  const Outcome info = plisse({"info", base, "--cache", (folder / "base.pc2").string(), "--json", "-"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  EXPECT_EQ(nlohmann::json::parse(info.out)["sequence"]["frames"], 3);
+}
+
+// The last frame alone is what it is at the end of all of them.
+TEST(Drape, TheLastFrameGoesThroughTheLoads) {
+  const TemporaryFolder folder;
+  const auto last = [&](const std::string& frames, const std::string& name) {
+    std::vector<std::string> command = {
+        "drape", "--example", "curtain", "--vertices", "120", "-o", (folder / name).string()};
+    if (!frames.empty()) command.insert(command.end(), {"--frames", frames});
+    const Outcome outcome = plisse(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  last("", "alone.ply");
+  last("1-24", "base_##.ply");
+  EXPECT_EQ(read_bytes(folder / "alone.ply"), read_bytes(folder / "base_24.ply"));
+}
+
+TEST(Drape, SmallExamplesAreSewn) {
+  const TemporaryFolder folder;
+  for (const char* name : {"torus", "teabag", "disk-balloon"}) {
+    const Outcome outcome = plisse({"drape", "--example", name, "--vertices", "20", "--iterations", "1", "-o",
+                                    (folder / "base.ply").string()});
+    EXPECT_LE(outcome.code, 1) << name << ": " << outcome.err;  // one step is too few, but it begins
+  }
 }
 
 TEST(Drape, AuthorsSetUp) {
