@@ -1,8 +1,8 @@
 // A = L Lᵀ of sparse matrices, multifrontal: most of the work in dense blocks, on all cores.
 //
 // J. Liu, "The Multifrontal Method for Sparse Matrix Solution: Theory and Practice", SIAM Review 34 (1992),
-// with relaxed supernodes (C. Ashcraft and R. Grimes 1989). Eigen's own factorisations go column by column. Of
-// the libraries that do not, SuiteSparse's supernodal part is GPL, PaStiX is not in Debian 12, and MUMPS
+// with relaxed supernodes (C. Ashcraft and R. Grimes 1989). Eigen's own factorisations go column by column.
+// Of the libraries that do not, SuiteSparse's supernodal part is GPL, PaStiX is not in Debian 12, and MUMPS
 // (CeCILL-C) is, but brings the Fortran run time, LAPACK, Scotch and a stand-in for MPI for this one solver.
 #pragma once
 
