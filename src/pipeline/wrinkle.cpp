@@ -70,7 +70,8 @@ std::vector<fs::path> write(const fs::path& output, const wrinkle::BaseSurface& 
                             values(field.one_form));
   } else {
     std::vector<std::string> comments;
-    if (!field.whole.converged) comments.push_back("not converged: " + field.whole.reason);
+    for (const wrinkle::Solution* solution : {&field.real, &field.whole})
+      if (!solution->converged && comments.empty()) comments.push_back("not converged: " + solution->reason);
     io::write_wrinkle_field(output, as_file(surface, field), comments);
   }
   return {output};
@@ -82,6 +83,8 @@ WrinkleScene read_base(const fs::path& file) {
   const io::Ply ply = io::read_ply(file);
   const io::PlyElement *vertex = ply.find("vertex"), *face = ply.find("face");
   if (!vertex || !face) throw bad(file, "a base surface needs the elements 'vertex' and 'face'");
+  for (const std::string& comment : ply.comments)
+    if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
   const io::PlyProperty *corners = face->find("vertex_indices"), *flat = face->find("rest");
   if (!corners || !corners->list || !flat || !flat->list)
     throw bad(
@@ -186,6 +189,9 @@ WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const fs::path& 
   };
   const Eigen::VectorXd a = read(amplitude, surface.topology.vertex_count, "vertices"),
                         omega = read(one_form, surface.topology.edges.size(), "edges");
+  for (Eigen::Index v = 0; v < a.size(); ++v)
+    if (a[v] < 0)
+      throw bad(amplitude, fmt::format("line {}: {:g} is below 0, which no amplitude is", v + 1, a[v]));
   const auto forms = wrinkle::face_forms(surface, request.curvature);
   const wrinkle::Problem problem(surface.topology, forms, model_of(request),
                                  wrinkle::wrinkle_free_faces(forms, surface.topology, request.rule),
@@ -194,6 +200,9 @@ WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const fs::path& 
   WrinkleEvaluation result;
   const double excess = problem.one_form_energy(a, omega, first);
   result.energy = excess + problem.relaxed_energy();
+  if (!std::isfinite(result.energy))
+    throw bad(amplitude,
+              "the field's energy is not finite: its numbers are out of all proportion to the surface");
   const wrinkle::Waves waves{a, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.complex().vertices)),
                              Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.complex().periods))};
   result.kkt = wrinkle::kkt_residual(problem, problem.pack(waves), excess, first);

@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+
+#include "base/error.h"
 
 namespace plisse::wrinkle {
 namespace {
@@ -66,6 +69,9 @@ void hold(SparseMatrix<double>& matrix, const std::vector<bool>& held, double di
 
 double kkt_residual(const Problem& problem, const VectorXd& x, double energy, const VectorXd& first,
                     bool fixed_periods) {
+  // max() below would pass over a NaN.
+  if (!std::isfinite(energy) || !first.allFinite() || !x.allFinite())
+    return std::numeric_limits<double>::infinity();
   const Index amplitudes = problem.amplitude_count();
   const double largest = amplitudes > 0 ? x.head(amplitudes).maxCoeff() : 0;
   double residual = 0;
@@ -94,6 +100,9 @@ Solution solve(const Problem& problem, const Waves& start, const SolveOptions& o
   solution.trace.push_back({0, seconds(), solution.start_energy});
   std::vector<bool> held(static_cast<std::size_t>(problem.size()), false);
   bool near = false;  // the exact Hessian has a chance
+  if (!std::isfinite(energy) || !first.allFinite())
+    throw Error(ExitCode::bad_input,
+                "the start's energy is not finite: amplitudes or frequencies are out of all proportion");
   int& iteration = solution.iterations;
   while (true) {
     solution.kkt = kkt_residual(problem, x, energy, first, options.fixed_periods);

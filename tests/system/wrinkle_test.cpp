@@ -73,6 +73,20 @@ TEST_F(Wrinkle, TheAuthorsSetUpAndTexts) {
       evaluate((disk / "disk_amplitude_simulated.txt").string(), (disk / "disk_dphi_simulated.txt").string());
   EXPECT_LE(whole, theirs["energy_J"].get<double>());
   EXPECT_LT(theirs["curl_max"].get<double>(), 1e-6);
+  // Amplitudes that make no sense have no verdict.
+  for (const auto& [value, what] : {std::pair("-1\n", "below 0"), std::pair("1e200\n", "not finite")}) {
+    std::string wild;
+    for (int v = 0; v < 273; ++v) wild += value;
+    write_text(folder_ / "wild.txt", wild);
+    const Outcome refused = plisse({"wrinkle", setup, "--wrinkle-free", "authors", "--evaluate",
+                                    file("wild.txt"), file("disk_dphi_ours.txt"), "-q"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(what));
+  }
+  // What stopped short is written and marked so.
+  EXPECT_EQ(plisse({"wrinkle", setup, "--iterations", "2", "-o", file("short.ply"), "-q"}).code, 1);
+  EXPECT_THAT(read_text(folder_ / "short.ply").substr(0, 400),
+              HasSubstr("comment not converged: too many iterations"));
   const auto back = io::read_wrinkle_field(text, disk / "disk_simulated.obj");
   EXPECT_EQ(back.positions.size(), 273U);
 }
