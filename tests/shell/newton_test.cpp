@@ -185,7 +185,6 @@ TEST(ShellNewton, InvertedAndCollapsedStarts) {
     const Equilibrium e = c.solve();
     EXPECT_TRUE(std::isfinite(e.energy));
     EXPECT_TRUE(e.positions.allFinite());
-    EXPECT_TRUE(e.converged || !e.reason.empty());
     EXPECT_TRUE(e.converged) << kind << ": " << e.reason;
     EXPECT_NEAR(e.energy, 0.01378, 1e-5) << kind;  // the strip's, as in StretchedStrip
   }
