@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <random>
 
 #include "base/atomic_file.h"
@@ -15,6 +16,7 @@
 #include "io/ply.h"
 #include "io/point_cache.h"
 #include "shell/carry.h"
+#include "shell/fundamental_forms.h"
 
 namespace plisse {
 namespace {
@@ -80,12 +82,23 @@ shell::Shell shell_of(const DrapeScene& scene) {
                             scene.rest_faces.size(), scene.faces.size()));
   shell::Shell shell;
   shell.topology = shell::build_topology(scene.faces, static_cast<std::size_t>(scene.start.cols()));
-  shell::build_topology(scene.rest_faces, static_cast<std::size_t>(scene.rest.cols()));  // for its checks
+  const shell::Topology rest =
+      shell::build_topology(scene.rest_faces, static_cast<std::size_t>(scene.rest.cols()));
   shell.rest = shell::rest_faces(scene.rest, scene.rest_faces);
   shell.material = scene.material;
   shell.stretching = scene.stretching;
   shell.bending = scene.bending;
   shell.residual = scene.residual;
+  if (scene.rest_flat || scene.bending == shell::Bending::off) return shell;
+  // Seams are boundaries of the rest shape and so count as flat.
+  auto forms = shell::second_forms(rest, shell.rest, scene.rest);
+  double angle = 0;
+  for (std::size_t f = 0; f < forms.size(); ++f)
+    angle = std::max(angle, forms[f].norm() * std::sqrt(shell.rest[f].area));
+  // Less than 1e-3 is what six digits of a file leave of a plane.
+  if (angle < 1e-3) return shell;
+  shell.rest_forms = std::move(forms);
+  shell.bending = shell::Bending::midedge;  // the quadratic model knows flat rest shapes only
   return shell;
 }
 

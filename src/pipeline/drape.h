@@ -49,7 +49,8 @@ struct DrapeReport {
 // (`failure`), once there is another to write. Throws Error.
 DrapeReport drape(const DrapeRequest& request);
 
-// Throws Error(bad_input) where rest and base faces do not belong together.
+// Where the rest shape is curved, bending is measured from that, by mid-edge normals. Throws Error(bad_input)
+// where rest and base faces do not belong together.
 shell::Shell shell_of(const DrapeScene& scene);
 
 // The base surface as PLY: `vertex` x, y, z, and held (1: all three coordinates); `face` vertex_indices and

@@ -22,6 +22,7 @@ struct DrapeScene {
   shell::Positions rest;                // may be cut apart where the base is sewn
   std::vector<shell::Face> rest_faces;  // into `rest`; face i, corner j belongs to base face i, corner j
   std::vector<shell::Face> faces;       // of the base surface
+  bool rest_flat = false;               // bending is measured from flat, whatever `rest` is
   shell::Positions start;               // of the base surface
   bool solved = false;                  // `start` is the answer (the base_mesh of a set-up for wrinkles)
   shell::Material material;

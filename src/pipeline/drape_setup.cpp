@@ -156,6 +156,12 @@ class Setup {
     const auto found = json_.find(key);
     return found != json_.end() && found->is_string() ? found->get<std::string>() : "";
   }
+  bool flag(const char* key) {
+    const auto found = json_.find(key);
+    if (found == json_.end()) return false;
+    if (!found->is_boolean()) complain(fmt::format("key '{}': true or false is wanted", key));
+    return found->is_boolean() && found->get<bool>();
+  }
   Vector3d vector(const char* key) {
     const auto found = json_.find(key);
     if (found == json_.end()) return Vector3d::Zero();
@@ -236,6 +242,22 @@ Conditions read_clamps(const fs::path& file, std::size_t vertices) {
   return conditions;
 }
 
+// Positions of the base's vertices: the mean of those that a rest mesh, cut apart, has for each of them.
+Positions drawn_together(const FlatMesh& rest, const FlatMesh& base) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  // vertices of the base and of the rest mesh
+  for (std::size_t f = 0; f < base.faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) pairs.emplace(base.faces[f][k], rest.faces[f][k]);
+  Positions sum = Positions::Zero(3, base.points.cols());
+  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(base.points.cols());
+  for (const auto& [v, r] : pairs) {
+    sum.col(v) += rest.points.col(r);
+    count[v] += 1;
+  }
+  for (Eigen::Index v = 0; v < sum.cols(); ++v)
+    if (count[v] > 0) sum.col(v) /= count[v];
+  return sum;
+}
+
 DrapeScene scene_of(Setup& setup) {
   DrapeScene scene;
   scene.name = setup.file().stem().string();
@@ -255,6 +277,7 @@ DrapeScene scene_of(Setup& setup) {
                       : shell::Bending::midedge;
   if (!bending.empty() && bending != "quadratic" && bending != "StVK")
     setup.complain(fmt::format("key 'bending_type': '{}'; allowed: quadratic or StVK", bending));
+  scene.rest_flat = setup.flag("rest_flat");
   const std::string rest = setup.text("rest_mesh");
   if (rest.empty()) setup.complain("key 'rest_mesh': missing; an OBJ is wanted");
   setup.throw_if_any();
@@ -279,10 +302,17 @@ DrapeScene scene_of(Setup& setup) {
   } else if (!current.empty() && fs::is_regular_file(setup.file().parent_path() / current, error)) {
     const FlatMesh base = read_mesh(setup.file().parent_path() / current);
     if (base.faces != mesh.faces) {
+      if (base.faces.size() != mesh.faces.size())
+        throw Error(
+            ExitCode::bad_input,
+            fmt::format("{}: 'cur_mesh' has {} faces, 'rest_mesh' {}; face i of one is face i of the other",
+                        setup.file().string(), base.faces.size(), mesh.faces.size()));
       scene.faces = base.faces;
-      scene.start = base.points;
-      log::warn(fmt::format("{}: the rest mesh is cut apart; starting from '{}', which is how it is sewn",
-                            setup.file().string(), current));
+      scene.start = drawn_together(mesh, base);
+      log::warn(
+          fmt::format("{}: the rest mesh is cut apart and sewn as '{}' says; the start is its pieces drawn "
+                      "together at the seams, --start FILE gives a better one",
+                      setup.file().string(), current));
     }
   }
   if (!setup.existing("obs_mesh", "an obstacle").empty())

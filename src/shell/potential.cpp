@@ -40,6 +40,10 @@ std::array<std::uint32_t, 6> stencil(const Topology& topology, std::size_t face)
   return vertices;
 }
 
+Eigen::Matrix2d rest_form(const Shell& shell, std::size_t face) {
+  return shell.rest_forms.empty() ? Eigen::Matrix2d::Zero().eval() : shell.rest_forms[face];
+}
+
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
   m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
@@ -265,8 +269,8 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
     stretch[f] = stretching(law_, shell_.rest[f], corners, gradient ? &stretch_force[f] : nullptr);
     if (!bend.empty()) {
       const Flap flap = flap_of(topology, f, x);
-      bend[f] = bending_midedge(shell_.material, shell_.rest[f], Eigen::Matrix2d::Zero(), corners,
-                                flap.across, flap.has, gradient ? &bend_force[f] : nullptr);
+      bend[f] = bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners, flap.across,
+                                flap.has, gradient ? &bend_force[f] : nullptr);
     }
   });
 
@@ -368,8 +372,8 @@ const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvat
     }
     if (!bend.empty()) {
       const Flap flap = flap_of(topology, f, x);
-      bending_midedge(shell_.material, shell_.rest[f], Eigen::Matrix2d::Zero(), corners, flap.across,
-                      flap.has, nullptr, &bend[f], curvature);
+      bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners, flap.across, flap.has,
+                      nullptr, &bend[f], curvature);
     }
   });
   scatter<3>(stretch, face_blocks_);

@@ -127,6 +127,10 @@ void check(const Shell& shell, const Conditions& conditions, const Loads& loads,
   const auto count = static_cast<Eigen::Index>(shell.topology.vertex_count);
   if (shell.rest.size() != shell.topology.faces.size())
     add(fmt::format("{} rest triangles for {} faces", shell.rest.size(), shell.topology.faces.size()));
+  if (!shell.rest_forms.empty() &&
+      (shell.rest_forms.size() != shell.rest.size() || shell.bending == Bending::quadratic))
+    add(fmt::format("{} second forms of rest triangles; one a face is wanted, and mid-edge bending",
+                    shell.rest_forms.size()));
   if (start.cols() != count) add(fmt::format("{} positions for {} vertices", start.cols(), count));
   if (conditions.at.cols() != count)
     add(fmt::format("conditions for {} of {} vertices", conditions.at.cols(), count));

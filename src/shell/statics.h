@@ -20,6 +20,8 @@ struct Shell {
   Stretching stretching = Stretching::tension_field;
   Bending bending = Bending::quadratic;
   double residual = 0;  // η of StretchingLaw
+  std::vector<Eigen::Matrix2d>
+      rest_forms;  // II_u of each face, 1/m, for mid-edge bending; empty: flat at rest
 };
 
 // Where a vertex is held, by coordinate: clamps hold all three, rollers and symmetry planes some. `at` is

@@ -40,7 +40,9 @@ TEST(ShellPotential, DerivativesAtThreeSteps) {
   const auto mesh = test::jittered(test::grid(4, 4, 1, 1), 0.25, 0.2, 5);
   const Positions x = bulged(mesh);
   for (const Bending bending : {Bending::off, Bending::quadratic, Bending::midedge}) {
-    const Shell shell = shell_of(mesh, bending, Stretching::stvk);
+    Shell shell = shell_of(mesh, bending, Stretching::stvk);
+    if (bending == Bending::midedge)  // curved at rest
+      shell.rest_forms.assign(mesh.faces.size(), (Eigen::Matrix2d() << 0.7, 0.2, 0.2, -0.4).finished());
     Conditions conditions(static_cast<std::size_t>(x.cols()));
     conditions.hold(3, x.col(3));
     conditions.hold(7, 1, x(1, 7));
@@ -78,6 +80,22 @@ TEST(ShellPotential, DerivativesAtThreeSteps) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen{MatrixXd(positive)};  // reads the lower half
     EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * eigen.eigenvalues()[eigen.eigenvalues().size() - 1]);
   }
+}
+
+// A shell that is curved at rest has neither energy nor forces there; flat at rest it has both.
+TEST(ShellPotential, CurvedRestShapes) {
+  auto mesh = test::grid(4, 4, 1, 1);
+  mesh.positions.row(2) = mesh.positions.row(0).array().square().matrix();
+  Shell shell = shell_of(mesh, Bending::midedge, Stretching::stvk);
+  const Conditions conditions(25);
+  const Loads loads;
+  VectorXd gradient;
+  EXPECT_GT(Potential(shell, conditions, loads).value(mesh.positions, &gradient).energy, 1e-3);
+  const double flat = gradient.norm();
+  shell.rest_forms = second_forms(shell.topology, shell.rest, mesh.positions);
+  const auto value = Potential(shell, conditions, loads).value(mesh.positions, &gradient);
+  EXPECT_LT(value.energy, 1e-20);            // squares of rounding
+  EXPECT_LT(gradient.norm(), 1e-10 * flat);  // rounding of strains by the stretching's stiffness
 }
 
 // Two edges of a triangle may have one vertex across them both: where three triangles meet.
