@@ -7,7 +7,9 @@
 // executes a program: the very one that it came from, /proc/self/exe, whose copy of this library notices
 // before main() that it has been called as importer. That leaves nothing to install or find, and the two
 // halves are always of one version. Only where the library was loaded at run time (a plug-in), the program is
-// not ours to start, and `plisse` of the PATH takes the part.
+// not ours to start, and `plisse` of the PATH takes the part; and where a loader was started by hand with the
+// program as its argument (tools/bundle does it), /proc/self/exe is the loader, and PLISSE_IMPORTER names what
+// to start instead.
 //
 // What goes between them: the order and the model through one file in memory, which has no size that matters
 // until it is used; notes, warnings and errors through a pipe, whose end says that the child is done. The
@@ -30,6 +32,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -170,7 +173,9 @@ class Child {
     std::string name = importer_name;
     char* arguments[] = {name.data(), nullptr};
     int failure = ENOENT;
-    if (part_of_the_program())
+    if (const char* program = std::getenv("PLISSE_IMPORTER"))
+      failure = ::posix_spawn(&id_, program, &files, &attributes, arguments, environ);
+    if (failure != 0 && part_of_the_program())
       failure = ::posix_spawn(&id_, "/proc/self/exe", &files, &attributes, arguments, environ);
     if (failure != 0) failure = ::posix_spawnp(&id_, "plisse", &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
