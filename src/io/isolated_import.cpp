@@ -8,8 +8,8 @@
 // before main() that it has been called as importer. That leaves nothing to install or find, and the two
 // halves are always of one version. Only where the library was loaded at run time (a plug-in), the program is
 // not ours to start, and `plisse` of the PATH takes the part; and where a loader was started by hand with the
-// program as its argument (tools/bundle does it), /proc/self/exe is the loader, and PLISSE_IMPORTER names what
-// to start instead.
+// program as its argument (tools/bundle does it), /proc/self/exe is the loader, and PLISSE_IMPORTER names
+// what to start instead.
 //
 // What goes between them: the order and the model through one file in memory, which has no size that matters
 // until it is used; notes, warnings and errors through a pipe, whose end says that the child is done. The
