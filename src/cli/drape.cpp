@@ -136,22 +136,27 @@ ordered_json to_json(const DrapeFrame& frame) {
                      {"energy_J", step.energy},
                      {"gradient_inf", step.gradient_inf},
                      {"step", step.step}});
-  return {{"frame", frame.frame},
-          {"load", frame.load},
-          {"path", frame.path},
-          {"energy_J", e.energy},
-          {"gradient_inf", e.gradient_inf},
-          {"force_scale_N", e.force_scale},
-          {"iterations", e.iterations},
-          {"converged", e.converged},
-          {"reason", e.reason},
-          {"measures", ordered_json(frame.measures)},
-          {"analysis_s", e.analysis_s},
-          {"assembly_s", e.assembly_s},
-          {"factor_s", e.factor_s},
-          {"line_search_s", e.line_search_s},
-          {"factor_nonzeros", e.factor_nonzeros},
-          {"trace", trace}};
+  ordered_json json = {{"frame", frame.frame},
+                       {"load", frame.load},
+                       {"path", frame.path},
+                       {"energy_J", e.energy},
+                       {"gradient_inf", e.gradient_inf},
+                       {"force_scale_N", e.force_scale},
+                       {"iterations", e.iterations},
+                       {"converged", e.converged},
+                       {"reason", e.reason},
+                       {"measures", ordered_json(frame.measures)},
+                       {"analysis_s", e.analysis_s},
+                       {"assembly_s", e.assembly_s},
+                       {"factor_s", e.factor_s},
+                       {"line_search_s", e.line_search_s},
+                       {"factor_nonzeros", e.factor_nonzeros},
+                       {"trace", trace}};
+  if (frame.contact)
+    json.update({{"inside", frame.contact->inside},
+                 {"deepest_m", frame.contact->deepest},
+                 {"nearest_m", frame.contact->nearest}});
+  return json;
 }
 
 ordered_json to_json(const DrapeReport& report, const std::string& model) {

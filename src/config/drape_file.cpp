@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using config::Complaints;
 using config::Problem;
 using Node = toml::node;
-using Hold = DrapeSettings::Hold;
+using Motion = DrapeSettings::Motion;
 using Obstacle = DrapeSettings::Obstacle;
 
 // A key sets the settings; those of [[hold]] and [[obstacle]] the last one that was begun.
@@ -54,8 +54,24 @@ std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double 
   };
 }
 
-const std::vector<Key>& keys() {
-  static const std::vector<Key> all = {
+void add_motion(std::vector<Key>& keys, const std::string& table, const std::string& who,
+                const std::function<Motion&(DrapeSettings&)>& motion) {
+  keys.push_back({table, "move", "[x, y, z], lengths", fmt::format("How far {} taken at full load.", who),
+                  [=](DrapeSettings& s, const Node& n, const fs::path&) { motion(s).move = point_of(n); }});
+  keys.push_back({table, "turn", "-36000 … 36000",
+                  fmt::format("By how many degrees {} turned at full load, before {} moved.", who, who),
+                  [=](DrapeSettings& s, const Node& n, const fs::path&) {
+                    motion(s).turn = config::within(config::number_of(n), {-36000, 36000});
+                  }});
+  keys.push_back(
+      {table, "axis", "[x, y, z]", "The axis of the turn (default [0, 1, 0]).",
+       [=](DrapeSettings& s, const Node& n, const fs::path&) { motion(s).axis = direction_of(n); }});
+  keys.push_back({table, "point", "[x, y, z], lengths", "A point on it (default the origin).",
+                  [=](DrapeSettings& s, const Node& n, const fs::path&) { motion(s).point = point_of(n); }});
+}
+
+std::vector<Key> all_keys() {
+  std::vector<Key> all = {
       {"drape", "mesh", "an existing OBJ", "The rest shape, flat or not. Either this or `panel`.",
        [](DrapeSettings& s, const Node& n, const fs::path& folder) {
          s.mesh = config::existing_file(n, folder);
@@ -151,36 +167,47 @@ const std::vector<Key>& keys() {
          for (std::size_t k = 0; k < 3; ++k)
            s.holds.back().axes[k] = word.find("xyz"[k]) != std::string::npos;
        }},
-      {"hold", "move", "[x, y, z], lengths", "How far they are taken at full load.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().move = point_of(n); }},
-      {"hold", "turn", "-36000 … 36000",
-       "By how many degrees they are turned at full load, before they are moved.",
+  };
+  add_motion(all, "hold", "they are", [](DrapeSettings& s) -> Motion& { return s.holds.back().motion; });
+  const std::vector<Key> obstacle = {
+      {"obstacle", "kind", "sphere, plane, capsule, cylinder or mesh", "What it is; must be there.",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
-         s.holds.back().turn = config::within(config::number_of(n), {-36000, 36000});
-       }},
-      {"hold", "axis", "[x, y, z]", "The axis of the turn (default [0, 1, 0]).",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().axis = direction_of(n); }},
-      {"hold", "point", "[x, y, z], lengths", "A point on it (default the origin).",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().point = point_of(n); }},
-      {"obstacle", "kind", "sphere, plane or capsule", "What it is; must be there.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) {
-         const std::vector<std::string> words = {"sphere", "plane", "capsule"};
+         const std::vector<std::string> words = {"sphere", "plane", "capsule", "cylinder", "mesh"};
          const auto found = std::find(words.begin(), words.end(), config::text_of(n));
          if (found == words.end()) throw config::unknown_word(config::text_of(n), words);
          s.obstacles.back().kind = static_cast<Obstacle::Kind>(found - words.begin());
        }},
       {"obstacle", "at", "[x, y, z], lengths",
-       "Centre, a point of the plane, or one end of the capsule's axis; must be there.",
+       "Centre, a point of the plane, or one end of the axis of a capsule or cylinder; must be there but for "
+       "a "
+       "mesh.",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().at = point_of(n); }},
-      {"obstacle", "to", "[x, y, z], lengths", "The other end of a capsule's axis; must be there for one.",
+      {"obstacle", "to", "[x, y, z], lengths",
+       "The other end of the axis of a capsule or cylinder; must be there for one.",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().to = point_of(n); }},
       {"obstacle", "normal", "[x, y, z]", "Out of a plane's solid side (default [0, 1, 0]).",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().normal = direction_of(n); }},
-      {"obstacle", "radius", "a length", "Of spheres and capsules.",
+      {"obstacle", "radius", "a length", "Of spheres, capsules and cylinders.",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.obstacles.back().radius = config::within(config::length_of(n), lengths);
        }},
+      {"obstacle", "file", "an existing model", "Of a mesh: a closed surface, in metres; may be animated.",
+       [](DrapeSettings& s, const Node& n, const fs::path& folder) {
+         s.obstacles.back().file = config::existing_file(n, folder);
+       }},
+      {"obstacle", "clip", "a name or an index, as text",
+       "The animation a mesh moves by, frame by frame of the scene (default: its first, if it has any).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.obstacles.back().clip = config::text_of(n);
+       }},
   };
+  all.insert(all.end(), obstacle.begin(), obstacle.end());
+  add_motion(all, "obstacle", "it is", [](DrapeSettings& s) -> Motion& { return s.obstacles.back().motion; });
+  return all;
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = all_keys();
   return all;
 }
 
@@ -219,12 +246,21 @@ void check_item(const std::string& name, const toml::table& table, const DrapeSe
   if (name == "hold" && table.contains("box") == table.contains("vertices"))
     complaints.add(at, "[[hold]] needs either 'box' or 'vertices'");
   if (name != "obstacle") return;
-  if (!table.contains("kind")) complaints.add(at, "key 'kind': missing; allowed: sphere, plane or capsule");
-  if (!table.contains("at")) complaints.add(at, "key 'at': missing; where the obstacle is");
-  if (settings.obstacles.back().kind == Obstacle::Kind::capsule && !table.contains("to"))
-    complaints.add(at, "key 'to': missing; capsules need the other end of their axis");
-  if (settings.obstacles.back().kind != Obstacle::Kind::plane && !table.contains("radius"))
-    complaints.add(at, "key 'radius': missing; spheres and capsules need it");
+  if (!table.contains("kind"))
+    complaints.add(at, "key 'kind': missing; allowed: sphere, plane, capsule, cylinder or mesh");
+  using Kind = Obstacle::Kind;
+  const Kind kind = settings.obstacles.back().kind;
+  const bool has_axis = kind == Kind::capsule || kind == Kind::cylinder;
+  if (kind == Kind::mesh && !table.contains("file"))
+    complaints.add(at, "key 'file': missing; meshes need the model they are");
+  if (kind != Kind::mesh && !table.contains("at"))
+    complaints.add(at, "key 'at': missing; where the obstacle is");
+  if (has_axis && !table.contains("to"))
+    complaints.add(at, "key 'to': missing; capsules and cylinders need the other end of their axis");
+  if (has_axis && settings.obstacles.back().at == settings.obstacles.back().to)
+    complaints.add(at, "key 'to': the same place as 'at'; an axis must have a length");
+  if ((has_axis || kind == Kind::sphere) && !table.contains("radius"))
+    complaints.add(at, "key 'radius': missing; spheres, capsules and cylinders need it");
 }
 
 }  // namespace

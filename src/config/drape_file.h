@@ -14,20 +14,26 @@ namespace plisse {
 
 // Metres, newtons, pascals; degrees.
 struct DrapeSettings {
+  struct Motion {  // at full load: turned about `axis` through `point`, then moved
+    glm::dvec3 move{0};
+    double turn = 0;  // degrees
+    glm::dvec3 axis{0, 1, 0}, point{0};
+  };
   struct Hold {
     std::optional<std::array<glm::dvec3, 2>> box;  // of the start; none: `vertices`
     std::vector<std::uint32_t> vertices;           // of the base, from 0
     std::array<bool, 3> axes{true, true, true};
-    glm::dvec3 move{0};  // at full load
-    double turn = 0;     // degrees at full load, about `axis` through `point`
-    glm::dvec3 axis{0, 1, 0}, point{0};
+    Motion motion;
     std::string place;  // "file:line:column", for messages
   };
   struct Obstacle {
-    enum class Kind { sphere, plane, capsule };
+    enum class Kind { sphere, plane, capsule, cylinder, mesh };
     Kind kind = Kind::sphere;
     glm::dvec3 at{0}, to{0, 1, 0}, normal{0, 1, 0};
     double radius = 0;
+    std::filesystem::path file;  // of a mesh: a model, animated or not
+    std::string clip;            // of an animated one; empty: the first
+    Motion motion;
     std::string place;
   };
   std::filesystem::path file;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "base/atomic_file.h"
@@ -32,7 +33,8 @@ double peak_rss_MiB() {
 
 // A flat St. Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing
 // disturbs it. What obstacles push at stays where it is.
-Positions perturbed(const DrapeScene& scene, const shell::Conditions& conditions, Positions positions) {
+Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,
+                    Positions positions) {
   if (scene.perturb == 0) return positions;
   std::mt19937 random(1);
   for (Eigen::Index v = 0; v < positions.cols(); ++v) {
@@ -41,10 +43,10 @@ Positions perturbed(const DrapeScene& scene, const shell::Conditions& conditions
       const double share = static_cast<double>(random()) / 2147483647.5 - 1;  // −1 … 1, the same everywhere
       if (!conditions.held(axis, v)) moved[axis] += scene.perturb * share;
     }
-    const bool touches = std::any_of(
-        scene.loads.obstacles.begin(), scene.loads.obstacles.end(), [&](const shell::Obstacle& obstacle) {
+    const bool touches =
+        std::any_of(loads.obstacles.begin(), loads.obstacles.end(), [&](const shell::Obstacle& obstacle) {
           return std::min(shell::distance(obstacle, moved).value,
-                          shell::distance(obstacle, positions.col(v)).value) < scene.loads.gap;
+                          shell::distance(obstacle, positions.col(v)).value) < loads.gap;
         });
     if (!touches) positions.col(v) = moved;
   }
@@ -66,6 +68,42 @@ std::filesystem::path write_cache(const std::filesystem::path& output, const std
   }
   writer.commit();
   return path;
+}
+
+// Cloth goes along with obstacles that move, in ways so short that none is caught up.
+Positions led(const DrapeScene& scene, const shell::Conditions& conditions, double from, double to,
+              Positions positions) {
+  auto before = scene.obstacles(from);
+  const double shortest = std::ldexp(to - from, -12);
+  for (double step = to - from; from < to;) {
+    const double next = std::min(from + step, to);
+    auto after = scene.obstacles(next);
+    if (auto moved = shell::followed(before, after, conditions, positions)) {
+      positions = std::move(*moved);
+      before = std::move(after);
+      from = next;
+    } else if ((step *= 0.5) < shortest) {
+      throw Error(ExitCode::bad_input,
+                  fmt::format("obstacles close in on cloth from two sides at load {:.4g}", next));
+    }
+  }
+  return positions;
+}
+
+DrapeContact contact_of(const std::vector<shell::Obstacle>& obstacles, const shell::Topology& topology,
+                        const Positions& positions) {
+  DrapeContact contact;
+  contact.nearest = std::numeric_limits<double>::max();
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    if (topology.component[static_cast<std::size_t>(v)] == shell::none) continue;
+    double least = std::numeric_limits<double>::max();
+    for (const shell::Obstacle& obstacle : obstacles)
+      least = std::min(least, shell::distance(obstacle, positions.col(v)).value);
+    if (least <= 0) ++contact.inside;
+    contact.deepest = std::max(contact.deepest, -least);
+    contact.nearest = std::min(contact.nearest, std::max(least, 0.0));
+  }
+  return contact;
 }
 
 std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame) {
@@ -162,10 +200,13 @@ DrapeReport drape(const DrapeRequest& request) {
   report.vertices = shell.topology.vertex_count;
   report.faces = shell.topology.faces.size();
   Positions positions = scene.start;
+  shell::Loads loads = scene.loads;
+  double load = 0;
   std::vector<int> cached;
   std::vector<Positions> cache;
   const auto write = [&](DrapeFrame frame) {
     if (scene.measures) frame.measures = scene.measures(positions);
+    if (!loads.obstacles.empty()) frame.contact = contact_of(loads.obstacles, shell.topology, positions);
     if (pattern || report.frames.empty()) {
       const auto path = pattern ? frame_file(request.output, frame.frame) : request.output;
       write_base(path, scene, frame, positions);
@@ -180,13 +221,17 @@ DrapeReport drape(const DrapeRequest& request) {
     frame.frame = n;
     frame.load = scene.frames > 1 ? static_cast<double>(n - 1) / (scene.frames - 1) : 1;
     const shell::Conditions conditions = scene.conditions(frame.load);
-    // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
-    // moves.
-    const Positions start =
-        scene.loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
     try {
+      // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
+      // moves.
+      Positions start = loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
+      if (scene.obstacles) {
+        start = led(scene, conditions, load, frame.load, std::move(start));
+        loads.obstacles = scene.obstacles(frame.load);
+      }
+      load = frame.load;
       frame.equilibrium =
-          shell::find_equilibrium(shell, conditions, scene.loads, perturbed(scene, conditions, start),
+          shell::find_equilibrium(shell, conditions, loads, perturbed(scene, loads, conditions, start),
                                   scene.newton, [&](const shell::NewtonStep& step, const Positions&) {
                                     if (request.progress) request.progress(n, scene.frames, step);
                                     return !interrupted();

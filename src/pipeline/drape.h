@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,20 @@
 
 namespace plisse {
 
+// How vertices lie beside obstacles, metres.
+struct DrapeContact {
+  int inside = 0;      // how many are in one
+  double deepest = 0;  // how deep; 0: none is
+  double nearest = 0;  // how far off the one is that comes nearest from outside
+};
+
 struct DrapeFrame {
   int frame = 1;
   double load = 1;  // t
   std::string path;
   shell::Equilibrium equilibrium;  // its positions are moved into the files
   std::map<std::string, double> measures;
+  std::optional<DrapeContact> contact;  // where the scene has obstacles
 };
 
 // After every step of the solver: which frame of how many, and the step.
@@ -41,7 +50,8 @@ struct DrapeReport {
   double wall_s = 0, peak_rss_MiB = 0;
 };
 
-// Solves the frames in order from the first, each from the one before, carried to where it is held; what is
+// Solves the frames in order from the first, each from the one before, carried to where it is held, or along
+// with obstacles that move; what is
 // not asked for is solved on the way: the frames are the load's steps. Several frames into one file: the
 // first as base.ply, all of them as base.pc2 beside it. A solver that stops short of its rule has its last
 // state written, marked in the file and the report. An interrupt ends the run after the step, with the last

@@ -33,6 +33,8 @@ struct DrapeScene {
   shell::Loads loads;
   // What is held, at load t in 0 … 1. The same coordinates are held for every t.
   std::function<shell::Conditions(double t)> conditions;
+  // Obstacles that move, at load t; the same number for every t. Empty: those of `loads` stay.
+  std::function<std::vector<shell::Obstacle>(double t)> obstacles;
   int frames = 1;  // of a scene that moves: frame n of N stands at t = (n − 1)/(N − 1)
   // Numbers that say how it came out, by name; none where empty.
   std::function<std::map<std::string, double>(const shell::Positions&)> measures;

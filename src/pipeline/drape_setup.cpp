@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "config/drape_file.h"
 #include "io/import_obj.h"
 #include "pipeline/drape_mesh.h"
+#include "pipeline/drape_obstacles.h"
 
 namespace plisse {
 namespace {
@@ -75,18 +75,6 @@ std::vector<Held> find_held(const DrapeSettings& settings, const Positions& star
   return all;
 }
 
-shell::Obstacle obstacle_of(const DrapeSettings::Obstacle& obstacle) {
-  switch (obstacle.kind) {
-    case DrapeSettings::Obstacle::Kind::plane:
-      return shell::Plane{eigen(obstacle.at), eigen(obstacle.normal)};
-    case DrapeSettings::Obstacle::Kind::capsule:
-      return shell::Capsule{eigen(obstacle.at), eigen(obstacle.to), obstacle.radius};
-    case DrapeSettings::Obstacle::Kind::sphere:
-      break;
-  }
-  return shell::Sphere{eigen(obstacle.at), obstacle.radius};
-}
-
 DrapeScene scene_of(const DrapeSettings& settings) {
   DrapeScene scene;
   scene.name = settings.file.stem().string();
@@ -110,18 +98,17 @@ DrapeScene scene_of(const DrapeSettings& settings) {
   scene.loads.gravity = eigen(settings.gravity);
   scene.loads.pressure = settings.pressure;
   scene.loads.gap = settings.gap;
-  for (const auto& obstacle : settings.obstacles) scene.loads.obstacles.push_back(obstacle_of(obstacle));
   scene.newton.tolerance = settings.tolerance;
   scene.newton.max_iterations = settings.iterations;
   scene.frames = settings.frames;
+  place_obstacles(settings, scene);
   const Positions start = scene.start;
   scene.conditions = [start, all = find_held(settings, start)](double t) {
     Conditions conditions(static_cast<std::size_t>(start.cols()));
     for (const Held& held : all) {
-      const Vector3d point = eigen(held.hold.point);
-      const Eigen::AngleAxisd turn(t * held.hold.turn * std::numbers::pi / 180, eigen(held.hold.axis));
+      const Eigen::Isometry3d motion = motion_at(held.hold.motion, t);
       for (const std::uint32_t v : held.vertices) {
-        const Vector3d at = point + turn * (start.col(v) - point) + t * eigen(held.hold.move);
+        const Vector3d at = motion * start.col(v);
         for (int axis = 0; axis < 3; ++axis)
           if (held.hold.axes[static_cast<std::size_t>(axis)]) conditions.hold(v, axis, at[axis]);
       }
@@ -315,11 +302,14 @@ DrapeScene scene_of(Setup& setup) {
                       setup.file().string(), current));
     }
   }
-  if (!setup.existing("obs_mesh", "an obstacle").empty())
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: 'obs_mesh': triangle meshes are no obstacles here; a scene file "
-                            "has spheres, planes and capsules",
-                            setup.file().string()));
+  const auto obstacle = setup.existing("obs_mesh", "an obstacle");
+  if (!obstacle.empty()) {
+    const FlatMesh body = read_mesh(obstacle);
+    scene.loads.obstacles = {
+        std::make_shared<shell::TriangleBody>(body.points, body.faces, obstacle.string())};
+    const double eta = setup.number("collision_eta", 0);
+    if (eta > 0) scene.loads.gap = eta;
+  }
   setup.existing("init_mesh", "a guess");
   const auto clamps = setup.existing("clamped_DOFs", "clamps");
   const auto count = static_cast<std::size_t>(scene.start.cols());

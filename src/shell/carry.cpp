@@ -1,7 +1,11 @@
 #include "shell/carry.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/SparseCholesky>
-#include <vector>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace plisse::shell {
 
@@ -50,6 +54,35 @@ Positions carried(const Shell& shell, const Conditions& conditions, const Positi
     for (std::uint32_t v = 0; v < topology.vertex_count; ++v)
       if (unknown[v] >= 0) result(axis, v) += extension[unknown[v]];
   }
+  return result;
+}
+
+std::optional<Positions> followed(const std::vector<Obstacle>& before, const std::vector<Obstacle>& after,
+                                  const Conditions& conditions, const Positions& positions) {
+  Positions result = positions;
+  std::atomic<bool> fine = true;
+  tbb::parallel_for(Eigen::Index{0}, positions.cols(), [&](Eigen::Index v) {
+    if (conditions.held.col(v).all() || !fine) return;
+    const Eigen::Vector3d from = positions.col(v);
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+    std::vector<double> least(before.size());
+    for (std::size_t o = 0; o < before.size(); ++o) {
+      const Distance was = distance(before[o], from);
+      least[o] = std::min(0.2 * was.value, 1e-3);
+      const Distance moved =
+          distance(after[o], from - was.value * was.first);  // the surface that was beside it
+      if (moved.value == 0) continue;
+      // Its way out has turned over: it is nearer to the body's other side.
+      if (moved.first.dot(was.first) < -0.1) fine = false;
+      const double motion = std::abs(moved.value), beside = std::max(was.value, 0.0);
+      shift -= moved.value / (1 + beside / (2 * motion)) * moved.first;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      if (!conditions.held(axis, v)) result(axis, v) += shift[axis];
+    for (std::size_t o = 0; o < after.size(); ++o)
+      if (distance(after[o], result.col(v)).value < least[o]) fine = false;
+  });
+  if (!fine) return std::nullopt;
   return result;
 }
 

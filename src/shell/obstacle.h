@@ -2,7 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <variant>
+
+#include "shell/barrier.h"
+#include "shell/triangle_body.h"
 
 namespace plisse::shell {
 
@@ -19,21 +23,21 @@ struct Capsule {  // all that is within `radius` of the segment from `first` to 
   Eigen::Vector3d first = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::UnitY();
   double radius = 1;
 };
-using Obstacle = std::variant<Sphere, Plane, Capsule>;
-
-struct Distance {
-  double value = 0;                                  // m; positive outside
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // unit: the way out
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // 1/m
+struct Cylinder {  // round, with flat ends at `first` and `second`, which differ
+  Eigen::Vector3d first = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::UnitY();
+  double radius = 1;
 };
+using Body = std::shared_ptr<const TriangleBody>;
+using Obstacle = std::variant<Sphere, Plane, Capsule, Cylinder, Body>;
+
+// A body's has no second derivative: contact() has what solvers need.
 Distance distance(const Obstacle& obstacle, const Eigen::Vector3d& point);
 
-// What keeps points out: per area, J/m² over a stiffness in N/m³ (a pressure a metre):
-//   b(d) = −(d − g)² ln(d/g)   for 0 < d < g, 0 beyond, infinite for d ≤ 0
-// (Li et al. 2020, Incremental Potential Contact, eq. 6), twice continuously differentiable.
-struct Barrier {
-  double value = 0, first = 0, second = 0;  // by d
-};
-Barrier barrier(double distance, double gap);
+// The barrier of a body at a point; infinite in it.
+Contact contact(const Obstacle& obstacle, const Eigen::Vector3d& point, double gap, bool curvature);
+
+// The share, at most 1, of a straight way that a point may go without passing through the body: what is left
+// of the way may end in it, which shows, but not beyond it.
+double free_way(const Obstacle& obstacle, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace plisse::shell

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/OrderingMethods>
 #include <algorithm>
@@ -48,6 +49,12 @@ Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
   m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
   return m;
+}
+
+Matrix3d convex_part(const Matrix3d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(symmetric);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 // What a barrier must be able to carry: the pressures of the loads and of the sheet's own weight.
@@ -208,20 +215,26 @@ void Potential::add(std::uint32_t block, const Matrix3d& values, bool turned) {
     }
 }
 
-Eigen::Vector3d Potential::obstacle_force(const Vector3d& x, double* energy, Matrix3d* curvature,
-                                          Curvature kind) const {
-  Vector3d gradient = Vector3d::Zero();
+Contact Potential::contact_at(std::uint32_t vertex, const Vector3d& x, bool curvature) const {
+  Contact sum;
+  const double stiffness = contact_ * vertex_areas_[vertex];
   for (const Obstacle& obstacle : loads_.obstacles) {
-    const Distance d = distance(obstacle, x);
-    if (d.value >= loads_.gap) continue;
-    const Barrier b = barrier(d.value, loads_.gap);
-    if (energy) *energy += contact_ * b.value;
-    gradient += contact_ * b.first * d.first;
-    if (!curvature) continue;
-    *curvature += contact_ * b.second * d.first * d.first.transpose();
-    if (kind == Curvature::exact) *curvature += contact_ * b.first * d.second;
+    const Contact one = contact(obstacle, x, loads_.gap, curvature);
+    sum.value += stiffness * one.value;
+    sum.first += stiffness * one.first;
+    sum.second += stiffness * one.second;
   }
-  return gradient;
+  return sum;
+}
+
+std::vector<Contact> Potential::contacts(const Positions& x, bool curvature) const {
+  const std::uint32_t count = shell_.topology.vertex_count;
+  std::vector<Contact> all(loads_.obstacles.empty() ? 0 : count);
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t v) {
+    const auto vertex = static_cast<std::uint32_t>(v);
+    if (shell_.topology.component[v] != none) all[v] = contact_at(vertex, x.col(vertex), curvature);
+  });
+  return all;
 }
 
 Vector3d Potential::dead_force(std::uint32_t vertex) const {
@@ -306,17 +319,15 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
       sum.row(axis) += force.transpose();
       size.row(axis) += force.cwiseAbs().transpose();
     }
+  const std::vector<Contact> touching = contacts(x, false);
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
     if (topology.component[v] == none) continue;
     const Vector3d force = dead_force(v);
     count(-force.dot(x.col(v) - origin_));
-    double contact = 0;
-    const Vector3d push_out = obstacle_force(x.col(v), &contact, nullptr, Curvature::exact);
-    count(vertex_areas_[v] * contact);
-    if (gradient) {
-      push(v, -force);
-      push(v, vertex_areas_[v] * push_out);
-    }
+    if (gradient) push(v, -force);
+    if (touching.empty()) continue;
+    count(touching[v].value);
+    if (gradient) push(v, touching[v].first);
   }
   if (loads_.pressure != 0) count(pressure_energy(x, gradient ? &sum : nullptr, &size));
   if (gradient) {
@@ -378,13 +389,11 @@ const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvat
   });
   scatter<3>(stretch, face_blocks_);
   scatter<6>(bend, flap_blocks_);
-  if (!loads_.obstacles.empty())
-    for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
-      if (topology.component[v] == none) continue;
-      Matrix3d second = Matrix3d::Zero();
-      obstacle_force(x.col(v), nullptr, &second, curvature);
-      add(block_of(v, v), vertex_areas_[v] * second, false);
-    }
+  const std::vector<Contact> touching = contacts(x, true);
+  for (std::uint32_t v = 0; v < touching.size(); ++v)
+    if (topology.component[v] != none)
+      add(block_of(v, v),
+          curvature == Curvature::exact ? touching[v].second : convex_part(touching[v].second), false);
   return matrix_;
 }
 
@@ -397,20 +406,13 @@ double Potential::safe_step(const Positions& x, const Eigen::VectorXd& direction
   if (loads_.obstacles.empty()) return 1;
   Positions moved = Positions::Zero(3, x.cols());
   advance(moved, direction, 1);
-  double step = 1;
-  for (std::uint32_t v = 0; v < shell_.topology.vertex_count; ++v) {
-    const double length = moved.col(v).norm();
-    if (length == 0) continue;
-    for (const Obstacle& obstacle : loads_.obstacles) {
-      double size = 0;  // a straight way of this length cannot lead through the body's middle
-      if (const auto* sphere = std::get_if<Sphere>(&obstacle)) size = 0.5 * sphere->radius;
-      if (const auto* capsule = std::get_if<Capsule>(&obstacle)) size = 0.5 * capsule->radius;
-      const double far = std::max(size, distance(obstacle, x.col(v)).value);
-      // A plane's far side is inside all the way: any length will be noticed.
-      if (!std::holds_alternative<Plane>(obstacle)) step = std::min(step, far / length);
-    }
-  }
-  return step;
+  std::vector<double> steps(static_cast<std::size_t>(x.cols()), 1);
+  tbb::parallel_for(std::size_t{0}, steps.size(), [&](std::size_t v) {
+    const auto column = static_cast<Eigen::Index>(v);
+    for (const Obstacle& obstacle : loads_.obstacles)
+      steps[v] = std::min(steps[v], free_way(obstacle, x.col(column), x.col(column) + moved.col(column)));
+  });
+  return *std::min_element(steps.begin(), steps.end());
 }
 
 }  // namespace plisse::shell

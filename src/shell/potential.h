@@ -39,8 +39,7 @@ class Potential {
   void advance(Positions& x, const Eigen::VectorXd& direction, double step) const;
   // Rest area of the vertex of each unknown, m².
   const Eigen::VectorXd& areas() const { return unknown_areas_; }
-  // The longest step ≤ 1 along a direction in which no vertex moves further than it safely may beside
-  // obstacles: by the distance to one, or half of a body's own size where it is farther.
+  // The longest step ≤ 1 along a direction on which no vertex can pass through an obstacle (free_way).
   double safe_step(const Positions& x, const Eigen::VectorXd& direction) const;
 
  private:
@@ -63,8 +62,9 @@ class Potential {
   Eigen::Vector3d dead_force(std::uint32_t vertex) const;
   // Where the cones under a part's faces meet: anywhere if it is closed, else the place check() asks for.
   Eigen::Vector3d apex(std::uint32_t part, const Positions& x) const;
-  Eigen::Vector3d obstacle_force(const Eigen::Vector3d& x, double* energy, Eigen::Matrix3d* curvature,
-                                 Curvature kind) const;
+  // All obstacles on one vertex, J and its derivatives; on all vertices, or nothing where there are none.
+  Contact contact_at(std::uint32_t vertex, const Eigen::Vector3d& x, bool curvature) const;
+  std::vector<Contact> contacts(const Positions& x, bool curvature) const;
 
   const Shell& shell_;
   const Loads& loads_;

@@ -107,9 +107,14 @@ Pull pull_on(const Shell& shell, const Conditions& conditions, const Loads& load
   return pull;
 }
 
-// Whether a point that goes straight on comes as near to a body as it is pushed from. All bodies are convex:
-// a way that leads off leads off for good.
+// Whether a point that goes straight on comes as near to a body as it is pushed from. All but triangles' are
+// convex: a way that leads off leads off for good.
 bool lands(const Obstacle& obstacle, Vector3d point, const Vector3d& way, double gap) {
+  if (const auto* body = std::get_if<Body>(&obstacle)) {
+    const auto& box = (*body)->tree().box();
+    const double far = (point - box.center()).norm() + box.diagonal().norm();
+    return (*body)->distance(point).value <= gap || (*body)->tree().first_hit(point, point + far * way) <= 1;
+  }
   for (int step = 0; step < 10000; ++step) {
     const Distance d = distance(obstacle, point);
     if (d.value <= gap) return true;

@@ -19,7 +19,7 @@ TEST(DrapeFile, ReadsWhatItSays) {
       "[material]\nthickness = \"0.5 mm\"\n[loads]\ngravity = [0, 0, -1]\n"
       "[[hold]]\nbox = [[1, 0, 2], [0, 1, 0]]\naxes = \"xz\"\nturn = 90\n"
       "[[hold]]\nvertices = [3, 4]\n"
-      "[[obstacle]]\nkind = \"plane\"\nat = [0, 0, 0]\nnormal = [0, 0, 2]\n",
+      "[[obstacle]]\nkind = \"plane\"\nat = [0, 0, 0]\nnormal = [0, 0, 2]\nmove = [0, 1, 0]\n",
       "cloth.toml");
   EXPECT_DOUBLE_EQ(s.panel[0], 0.6);
   EXPECT_EQ(s.vertices, 800);
@@ -35,6 +35,8 @@ TEST(DrapeFile, ReadsWhatItSays) {
   EXPECT_EQ(s.holds[1].place, "cloth.toml:15:1");
   ASSERT_EQ(s.obstacles.size(), 1U);
   EXPECT_EQ(s.obstacles[0].normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(s.obstacles[0].motion.move, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(s.holds[0].motion.turn, 90);
 }
 
 TEST(DrapeFile, AllMistakesAtOnce) {

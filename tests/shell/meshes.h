@@ -44,6 +44,44 @@ inline Mesh grid(int columns, int rows, double width, double height, Diagonal di
   return mesh;
 }
 
+// A box of this size about the origin, two triangles a side, wound outward.
+inline Mesh box(const Eigen::Vector3d& size) {
+  Mesh mesh;
+  mesh.positions.resize(3, 8);
+  for (int v = 0; v < 8; ++v)
+    mesh.positions.col(v) << size[0] * ((v & 1) - 0.5), size[1] * ((v >> 1 & 1) - 0.5),
+        size[2] * ((v >> 2) - 0.5);
+  mesh.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+// A sphere about the origin of rings × 2 rings quadrangles, wound outward.
+inline Mesh ball(double radius, int rings) {
+  Mesh mesh;
+  const int around = 2 * rings;
+  mesh.positions.resize(3, (rings - 1) * around + 2);
+  mesh.positions.col(0) << 0, 0, radius;
+  mesh.positions.col(mesh.positions.cols() - 1) << 0, 0, -radius;
+  const auto id = [&](int ring, int i) {
+    if (ring == 0) return std::uint32_t{0};
+    if (ring == rings) return static_cast<std::uint32_t>(mesh.positions.cols() - 1);
+    return static_cast<std::uint32_t>(1 + (ring - 1) * around + i % around);
+  };
+  for (int ring = 1; ring < rings; ++ring)
+    for (int i = 0; i < around; ++i) {
+      const double down = M_PI * ring / rings, angle = 2 * M_PI * i / around;
+      mesh.positions.col(id(ring, i)) << radius * std::sin(down) * std::cos(angle),
+          radius * std::sin(down) * std::sin(angle), radius * std::cos(down);
+    }
+  for (int ring = 0; ring < rings; ++ring)
+    for (int i = 0; i < around; ++i) {
+      if (ring > 0) mesh.faces.push_back({id(ring, i), id(ring + 1, i), id(ring, i + 1)});
+      if (ring + 1 < rings) mesh.faces.push_back({id(ring, i + 1), id(ring + 1, i), id(ring + 1, i + 1)});
+    }
+  return mesh;
+}
+
 // Inner vertices of a grid moved by up to `share` of its spacing, in the plane.
 inline Mesh jittered(Mesh mesh, double spacing, double share, unsigned seed) {
   std::mt19937 engine(seed);

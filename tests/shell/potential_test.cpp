@@ -50,8 +50,12 @@ TEST(ShellPotential, DerivativesAtThreeSteps) {
     loads.gravity << 1, -9.81, 0.3;
     loads.pressure = 200;
     loads.forces = Positions::Constant(3, x.cols(), 0.7);
+    test::Mesh box = test::box({0.5, 0.5, 0.5});
+    box.positions.row(2).array() -= 0.7;
     loads.obstacles = {Sphere{{0.5, 0.5, -1.0}, 0.9}, Plane{{0, 0, -0.5}, Vector3d(0.1, 0.2, 1).normalized()},
-                       Capsule{{0, -0.5, -0.6}, {1, -0.6, -0.5}, 0.3}};
+                       Capsule{{0, -0.5, -0.6}, {1, -0.6, -0.5}, 0.3},
+                       Cylinder{{0, 1.4, -1}, {0, 1.4, 1}, 0.3},
+                       std::make_shared<TriangleBody>(box.positions, box.faces, "box")};
     loads.gap = 0.5;
     Potential potential(shell, conditions, loads);
     ASSERT_EQ(potential.unknowns(), 3 * x.cols() - 4);
@@ -126,50 +130,9 @@ TEST(ShellPotential, VerticesOfThreeTriangles) {
 }
 
 TEST(ShellPotential, VolumeOfABox) {
-  const std::vector<Face> faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  Positions x(3, 8);
-  for (int v = 0; v < 8; ++v) x.col(v) << 5 + 2.0 * (v & 1), -1 + 3.0 * (v >> 1 & 1), 0.5 * (v >> 2);
-  EXPECT_NEAR(enclosed_volume(faces, x), 3, 1e-12);
-}
-
-TEST(ShellObstacle, DistancesAndTheirDerivatives) {
-  std::mt19937 engine(2);
-  std::normal_distribution<double> normal;
-  const std::vector<Obstacle> bodies = {Sphere{{0.1, 0.2, 0.3}, 0.5}, Plane{{0, 1, 0}, Vector3d(1, 2, 2) / 3},
-                                        Capsule{{-1, 0, 0}, {1, 0.5, 0}, 0.2}};
-  EXPECT_NEAR(distance(bodies[0], {0.1, 0.2, 1.3}).value, 0.5, 1e-15);
-  EXPECT_NEAR(distance(bodies[1], {3, 1, 0}).value, 1, 1e-15);
-  EXPECT_NEAR(distance(bodies[2], {-2, 0, 0}).value, 0.8, 1e-15);
-  for (const Obstacle& body : bodies)
-    for (int trial = 0; trial < 20; ++trial) {
-      const Vector3d at(2 * normal(engine), 2 * normal(engine), 2 * normal(engine));
-      const Distance d = distance(body, at);
-      test::expect_derivative(
-          [&](const Vector3d& x) { return Eigen::Matrix<double, 1, 1>(distance(body, x).value); },
-          [&](const Vector3d& way) { return Eigen::Matrix<double, 1, 1>(d.first.dot(way)); }, at, 0.02,
-          engine);
-      if (d.second.norm() > 0) {
-        test::expect_derivative([&](const Vector3d& x) { return distance(body, x).first; },
-                                [&](const Vector3d& way) { return Vector3d(d.second * way); }, at, 0.02,
-                                engine);
-      }
-    }
-}
-
-TEST(ShellObstacle, BarrierIsSmoothAndInfinite) {
-  const double gap = 0.01;
-  EXPECT_TRUE(std::isinf(barrier(0, gap).value));
-  EXPECT_TRUE(std::isinf(barrier(-1, gap).value));
-  EXPECT_EQ(barrier(gap, gap).second, 0);
-  EXPECT_NEAR(barrier(gap * (1 - 1e-9), gap).second, 0, 1e-6);  // 4 · 1e-9 and smaller terms
-  for (const double d : {0.001, 0.005, 0.009}) {
-    const double step = 1e-7 * gap;
-    EXPECT_NEAR((barrier(d + step, gap).value - barrier(d - step, gap).value) / (2 * step),
-                barrier(d, gap).first, 1e-6 * std::abs(barrier(d, gap).first));
-    EXPECT_NEAR((barrier(d + step, gap).first - barrier(d - step, gap).first) / (2 * step),
-                barrier(d, gap).second, 1e-6 * barrier(d, gap).second);
-  }
+  test::Mesh box = test::box({2, 3, 0.5});
+  box.positions.colwise() += Vector3d(5, -1, 0);
+  EXPECT_NEAR(enclosed_volume(box.faces, box.positions), 3, 1e-12);
 }
 
 }  // namespace

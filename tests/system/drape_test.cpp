@@ -119,9 +119,10 @@ TEST(Drape, RefusesWhatMakesNoSense) {
              "[drape]\npanel = [1]\nvertice = 5\n[material]\npoisson = 0.6\n[[hold]]\nturn = "
              "1\n[[obstacle]]\nkind = \"cube\"\n");
   const std::string all = refused({(folder / "bad.toml").string()});
-  EXPECT_THAT(all, AllOf(HasSubstr("bad.toml:2"), HasSubstr("did you mean 'vertices'"),
-                         HasSubstr("bad.toml:5"), HasSubstr("needs either 'box' or 'vertices'"),
-                         HasSubstr("key 'radius': missing"), HasSubstr("sphere, plane or capsule")));
+  EXPECT_THAT(all,
+              AllOf(HasSubstr("bad.toml:2"), HasSubstr("did you mean 'vertices'"), HasSubstr("bad.toml:5"),
+                    HasSubstr("needs either 'box' or 'vertices'"), HasSubstr("key 'radius': missing"),
+                    HasSubstr("sphere, plane, capsule, cylinder or mesh")));
   write_text(folder / "loose.toml", "[drape]\npanel = [1, 1]\nvertices = 30\n[material]\ndensity = 100\n");
   EXPECT_THAT(refused({(folder / "loose.toml").string()}),
               HasSubstr("held by nothing and gravity pulls at it"));
@@ -173,6 +174,53 @@ TEST(Drape, ClothIsNotCarriedThroughObstacles) {
       high = std::max(high, y);
     }
     EXPECT_GT(high, 0.09) << name;  // over its top, near the pole
+  }
+}
+
+// A body of triangles, or a cylinder, comes into a curtain from behind: it is pushed along, no vertex inside.
+TEST(Drape, BodiesThatMovePushClothAlong) {
+  const TemporaryFolder folder;
+  std::string obj;  // a ball of .1 m, 16 rings of 32
+  const auto round = [](int k) { return k * std::numbers::pi / 16; };
+  for (int ring = 1; ring < 16; ++ring)
+    for (int i = 0; i < 32; ++i)
+      obj += fmt::format("v {:.9f} {:.9f} {:.9f}\n", 0.25 + 0.1 * std::sin(round(ring)) * std::cos(round(i)),
+                         0.2 + 0.1 * std::sin(round(ring)) * std::sin(round(i)),
+                         -0.102 + 0.1 * std::cos(round(ring)));
+  obj += "v 0.25 0.2 -0.002\nv 0.25 0.2 -0.202\n";
+  for (int i = 0; i < 32; ++i) {
+    const int next = (i + 1) % 32;
+    obj += fmt::format("f 481 {} {}\nf 482 {} {}\n", i + 1, next + 1, 449 + next, 449 + i);
+    for (int ring = 0; ring < 14; ++ring)
+      obj += fmt::format("f {0} {1} {2} {3}\n", 32 * ring + i + 1, 32 * ring + i + 33, 32 * ring + next + 33,
+                         32 * ring + next + 1);
+  }
+  write_text(folder / "ball.obj", obj);
+  const std::string cloth =
+      "[drape]\npanel = [0.5, 0.5]\nvertices = 300\nframes = 4\n"
+      "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n"
+      "[[hold]]\nbox = [[-1, 0.499, -1], [1, 1, 1]]\n";
+  write_text(folder / "ball.toml", cloth +
+                                       "[[obstacle]]\nkind = \"mesh\"\nfile = \"ball.obj\"\nmove = "
+                                       "[0, 0, 0.15]\nturn = 10\naxis = [0, 0, 1]\npoint = [0.25, 0.2, 0]\n");
+  write_text(folder / "cylinder.toml",
+             cloth +
+                 "[[obstacle]]\nkind = \"cylinder\"\nat = [-1, 0.2, -0.102]\nto = [2, 0.2, -0.102]\n"
+                 "radius = 0.1\nmove = [0, 0, 0.15]\n");
+  for (const char* name : {"ball.toml", "cylinder.toml"}) {
+    const std::string report = (folder / "report.json").string();
+    const Outcome outcome = plisse({"drape", (folder / name).string(), "--frames", "1-4", "-o",
+                                    (folder / "base_#.ply").string(), "--json", report});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(read_text(report));
+    ASSERT_EQ(json["frames"].size(), 4u);
+    for (const auto& frame : json["frames"]) {
+      EXPECT_EQ(frame["inside"], 0);
+      EXPECT_EQ(frame["deepest_m"], 0.0);
+      if (frame["frame"] > 1) {
+        EXPECT_LT(frame["nearest_m"].get<double>(), 2e-3);  // it touches: within the gap
+      }
+    }
   }
 }
 
