@@ -1,0 +1,253 @@
+#include "wrinkle/upsample.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+#include "base/error.h"
+#include "mesh/corner_field.h"
+#include "mesh/loop.h"
+
+namespace plisse::wrinkle {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+void check(const BaseSurface& surface, const CoarseField& field) {
+  const auto vertices = static_cast<Index>(surface.topology.vertex_count);
+  if (field.amplitude.size() != vertices || field.phase.size() != surface.topology.faces.size() ||
+      surface.positions.cols() != vertices)
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("a field of {} vertices and {} faces on a surface of {} and {}", field.amplitude.size(),
+                    field.phase.size(), vertices, surface.topology.faces.size()));
+  bool finite = field.amplitude.allFinite() && surface.positions.allFinite();
+  for (const auto& p : field.phase) finite = finite && std::isfinite(p[0] + p[1] + p[2]);
+  if (!finite) throw Error(ExitCode::bad_input, "the wrinkle field or its surface is not finite");
+}
+
+// Vertices of the outline where its rest shape turns.
+std::vector<std::uint32_t> sharp_corners(const BaseSurface& surface) {
+  const shell::Topology& topology = surface.topology;
+  std::vector<double> angle(topology.vertex_count, 0);
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const Eigen::Matrix2d& e = surface.rest[f].edges;
+    const std::array<Eigen::Vector2d, 3> x{Eigen::Vector2d(0, 0), e.col(0), e.col(1)};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Eigen::Vector2d a = x[(c + 1) % 3] - x[c], b = x[(c + 2) % 3] - x[c];
+      angle[topology.faces[f][c]] += std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b));
+    }
+  }
+  std::vector<bool> outline(topology.vertex_count, false);
+  for (const shell::Edge& edge : topology.edges) {
+    if (edge.boundary()) outline[edge.vertex[0]] = outline[edge.vertex[1]] = true;
+  }
+  std::vector<std::uint32_t> sharp;
+  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
+    if (outline[v] && std::abs(angle[v] - pi) > pi / 3) sharp.push_back(v);
+  }
+  return sharp;
+}
+
+template <typename Value>
+std::vector<Value> applied(const Rows<LoopWeight>& masks, const std::vector<Value>& values, Value zero) {
+  std::vector<Value> result(masks.offsets.size() - 1, zero);
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    for (std::uint32_t i = masks.offsets[v]; i < masks.offsets[v + 1]; ++i)
+      result[v] += masks.items[i].weight * values[masks.items[i].vertex];
+  }
+  return result;
+}
+
+std::vector<glm::dvec3> to_glm(const Eigen::Matrix3Xd& columns) {
+  std::vector<glm::dvec3> result;
+  for (Index v = 0; v < columns.cols(); ++v) result.emplace_back(columns(0, v), columns(1, v), columns(2, v));
+  return result;
+}
+
+Eigen::Matrix3Xd to_eigen(const std::vector<glm::dvec3>& points) {
+  Eigen::Matrix3Xd result(3, static_cast<Index>(points.size()));
+  for (std::size_t v = 0; v < points.size(); ++v)
+    result.col(static_cast<Index>(v)) << points[v].x, points[v].y, points[v].z;
+  return result;
+}
+
+// No amplitude on faces without waves, nor on their edges.
+void shut(std::vector<double>& amplitude, const LoopLevel& level, const CornerField& phase) {
+  for (std::size_t f = 0; f < level.faces.size(); ++f) {
+    if (phase.known()[f]) continue;
+    for (const std::uint32_t v : level.faces[f]) amplitude[v] = 0;
+  }
+}
+
+std::array<CornerField, 2> uv_fields(const LoopLevel& level,
+                                     const std::vector<std::array<Eigen::Vector2d, 3>>& uv) {
+  const auto axis = [&](Index i) {
+    std::vector<std::array<double, 3>> values;
+    for (const auto& corner : uv) values.push_back({corner[0][i], corner[1][i], corner[2][i]});
+    return CornerField(level, std::move(values), std::vector<bool>(uv.size(), true), 0);
+  };
+  return {axis(0), axis(1)};
+}
+
+}  // namespace
+
+FineField upsample(const BaseSurface& surface, const CoarseField& field, int levels, const Extras& extras) {
+  check(surface, field);
+  const LoopSubdivision loop =
+      subdivide_loop(surface.topology.faces, surface.topology.vertex_count, levels, sharp_corners(surface));
+  std::vector<bool> waves;
+  for (const shell::Face& t : surface.topology.faces)
+    waves.push_back(field.amplitude[t[0]] > 0 || field.amplitude[t[1]] > 0 || field.amplitude[t[2]] > 0);
+  std::vector<double> amplitude(field.amplitude.begin(), field.amplitude.end());
+  std::vector<glm::dvec3> positions = to_glm(surface.positions), lean = to_glm(extras.lean);
+  CornerField phase(loop.levels.front(), field.phase, waves, 2 * pi, amplitude);
+  std::vector<CornerField> uv;
+  if (!extras.uv.empty()) {
+    for (CornerField& axis : uv_fields(loop.levels.front(), extras.uv)) uv.push_back(std::move(axis));
+  }
+  for (std::size_t l = 1; l < loop.levels.size(); ++l) {
+    const LoopLevel &coarse = loop.levels[l - 1], &fine = loop.levels[l];
+    phase = phase.refined(coarse, fine, positions);
+    for (CornerField& axis : uv) axis = axis.refined(coarse, fine, positions);
+    positions = applied(fine.masks, positions, glm::dvec3(0));
+    if (!lean.empty()) lean = applied(fine.masks, lean, glm::dvec3(0));
+    amplitude = applied(fine.masks, amplitude, 0.0);
+    shut(amplitude, fine, phase);
+  }
+
+  const LoopLevel& last = loop.levels.back();
+  FineField result;
+  result.faces.assign(last.faces.begin(), last.faces.end());
+  result.base_face.resize(last.faces.size());
+  for (std::size_t f = 0; f < last.faces.size(); ++f) {
+    std::uint32_t at = static_cast<std::uint32_t>(f);
+    for (std::size_t l = loop.levels.size() - 1; l > 0; --l) at = loop.levels[l].parent[at];
+    result.base_face[f] = at;
+  }
+  const std::array<std::vector<glm::dvec3>, 2> tangents{applied(loop.tangents[0], positions, glm::dvec3(0)),
+                                                        applied(loop.tangents[1], positions, glm::dvec3(0))};
+  result.positions = to_eigen(applied(loop.limit, positions, glm::dvec3(0)));
+  if (!lean.empty()) result.lean = to_eigen(applied(loop.limit, lean, glm::dvec3(0)));
+  amplitude = applied(loop.limit, amplitude, 0.0);
+  shut(amplitude, last, phase);
+  result.amplitude =
+      Eigen::Map<const Eigen::VectorXd>(amplitude.data(), static_cast<Index>(amplitude.size()));
+
+  // Where tangents fail (a sharp corner's may, a collapsed face's do), the faces' own normal is left.
+  result.normals = vertex_normals(result.faces, result.positions);
+  result.phase = Eigen::VectorXd::Zero(result.positions.cols());
+  result.gradient = Eigen::Matrix3Xd::Zero(3, result.positions.cols());
+  std::vector<bool> done(last.vertex_count, false);
+  for (std::size_t f = 0; f < last.faces.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = last.faces[f][c];
+      if (done[v]) continue;
+      const glm::dvec3 t = tangents[0][v], u = tangents[1][v], n = glm::cross(t, u);
+      const double area = glm::length(n);
+      const bool spans = area > 1e-9 * (glm::dot(t, t) + glm::dot(u, u));
+      const auto column = static_cast<Index>(v);
+      if (spans) result.normals.col(column) << n.x / area, n.y / area, n.z / area;
+      if (!phase.known()[f] || !(amplitude[v] > 0)) continue;
+      done[v] = true;
+      const CornerField::Limit limit = phase.limit(loop, positions, f, c);
+      result.phase[column] = limit.value;
+      if (!spans) continue;
+      // t·g and u·g are what was found; g lies in their plane.
+      const glm::dvec3 g =
+          (limit.along[0] * glm::cross(u, n) + limit.along[1] * glm::cross(n, t)) / (area * area);
+      result.gradient.col(column) << g.x, g.y, g.z;
+    }
+  }
+  if (!uv.empty()) {
+    for (std::size_t f = 0; f < last.faces.size(); ++f) {
+      auto& corners = result.uv.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c)
+        corners[c] = {uv[0].limit(loop, positions, f, c).value, uv[1].limit(loop, positions, f, c).value};
+    }
+  }
+  if (!result.positions.allFinite() || !result.amplitude.allFinite() || !result.gradient.allFinite())
+    throw Error(ExitCode::check_failed, "the up-sampled field is not finite");
+  return result;
+}
+
+Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms>& forms, double poisson,
+                         const CoarseField& field) {
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, surface.positions.cols());
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(surface.positions.cols());
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    const shell::Face& t = surface.topology.faces[f];
+    const auto& gradients = forms[f].rest.gradients;
+    const Eigen::Vector2d w = gradients * Vector3d(field.phase[f][0], field.phase[f][1], field.phase[f][2]);
+    const double squared = w.squaredNorm(),
+                 a = (field.amplitude[t[0]] + field.amplitude[t[1]] + field.amplitude[t[2]]) / 3;
+    if (!(squared > 0) || !(a > 0)) continue;
+    // α/(α + 2β) = ν, 2β/(α + 2β) = 1 − ν; I_u is the identity here.
+    const Eigen::Vector2d across(-w.y(), w.x());
+    const Eigen::Matrix2d& second = forms[f].second_form;
+    const Eigen::Vector2d v =
+        (poisson * second.trace() / squared + (1 - poisson) * w.dot(second * w) / (squared * squared)) * w +
+        2 * w.dot(second * across) / (squared * squared) * across;
+    Eigen::Matrix3d x;
+    for (Index c = 0; c < 3; ++c) x.col(c) = surface.positions.col(t[static_cast<std::size_t>(c)]);
+    const Eigen::Matrix<double, 3, 2> frame = x * gradients.transpose();
+    const Eigen::Matrix2d first = frame.transpose() * frame;
+    if (!(std::abs(first.determinant()) > 1e-12 * first.squaredNorm()))
+      continue;  // collapsed: nowhere to lean
+    const double weight = forms[f].rest.area * a * a;
+    for (const std::uint32_t vertex : t) {
+      sum.col(vertex) += weight * (frame * first.inverse() * v);
+      weights[vertex] += weight;
+    }
+  }
+  for (Index v = 0; v < sum.cols(); ++v) {
+    if (weights[v] > 0) sum.col(v) /= weights[v];
+  }
+  return sum;
+}
+
+shell::Positions displaced(const FineField& field, bool with_v2) {
+  shell::Positions result = field.positions;
+  for (Index v = 0; v < result.cols(); ++v) {
+    const double a = field.amplitude[v], phase = field.phase[v];
+    if (!(a > 0)) continue;
+    result.col(v) += a * std::cos(phase) * field.normals.col(v);
+    if (with_v2) result.col(v) += a * a / 8 * std::sin(2 * phase) * field.gradient.col(v);
+    if (field.lean.cols() > 0) result.col(v) += a * std::sin(phase) * field.lean.col(v);
+  }
+  return result;
+}
+
+Eigen::Matrix3Xd vertex_normals(const std::vector<shell::Face>& faces, const shell::Positions& positions) {
+  Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, positions.cols());
+  for (const shell::Face& t : faces) {
+    const Vector3d a = positions.col(t[0]);
+    const Vector3d normal = (Vector3d(positions.col(t[1])) - a).cross(Vector3d(positions.col(t[2])) - a);
+    for (const std::uint32_t v : t) normals.col(v) += normal;
+  }
+  for (Index v = 0; v < normals.cols(); ++v) {
+    const double length = normals.col(v).norm();
+    normals.col(v) = length > 0 ? Vector3d(normals.col(v) / length) : Vector3d(0, 1, 0);
+  }
+  return normals;
+}
+
+double largest_step(const BaseSurface& surface, const CoarseField& field) {
+  const double least = field.amplitude.size() > 0 ? 0.01 * field.amplitude.maxCoeff() : 0;
+  double most = 0;
+  for (std::size_t f = 0; f < field.phase.size(); ++f) {
+    const shell::Face& t = surface.topology.faces[f];
+    for (std::size_t s = 0; s < 3; ++s) {
+      if (std::max(field.amplitude[t[s]], field.amplitude[t[(s + 1) % 3]]) > least)
+        most = std::max(most, std::abs(field.phase[f][(s + 1) % 3] - field.phase[f][s]));
+    }
+  }
+  return most;
+}
+
+}  // namespace plisse::wrinkle
