@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "config/suggest.h"
+#include "pipeline.h"
 #include "pipeline/drape_examples.h"
 #include "pipeline/drape_setup.h"
 #include "pipeline/wrinkle.h"
@@ -42,6 +43,15 @@ struct Arguments {
            described("field.ply (the default), or NAME_amplitude_REST.txt for the authors' three text "
                      "files"))
         ->type_name("FILE");
+    app.add_option("--mesh", mesh,
+                   described("The waves as geometry, too: .ply, .obj or .glb, with normals and uv"))
+        ->type_name("FILE");
+    app.add_option("--levels", levels,
+                   described("Halve the mesh's edges this often for --mesh; default: as often as the waves "
+                             "need. Allowed: 0 … 8."))
+        ->type_name("N");
+    app.add_flag("--mesh-v1", mesh_v1,
+                 "Waves of --mesh lean with the surface's curvature (v1), which hardly shows");
     app.add_option("--wrinkle-free", rule,
                    described("Which faces have no waves: by the paper's rule (the default) or its authors' "
                              "program's"))
@@ -74,10 +84,11 @@ struct Arguments {
   }
 
   CommonArguments common;
-  std::string input, example, vertices, seed, output = "field.ply", rule = "paper", curvature = "2",
-                                              factor = "1", frequency = "1", iterations = "500";
+  std::string input, example, vertices, seed, output = "field.ply", mesh, levels, rule = "paper",
+                                              curvature = "2", factor = "1", frequency = "1",
+                                              iterations = "500";
   std::vector<std::string> without, evaluate;
-  bool free_held = false;
+  bool free_held = false, mesh_v1 = false;
 };
 
 double number_in(const std::string& option, const std::string& text, double low, double high) {
@@ -130,6 +141,11 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.options.solve.max_iterations = whole_number("--iterations", arguments.iterations, 0, 1000000);
   request.pin_held = !arguments.free_held;
   request.output = arguments.output;
+  request.mesh = arguments.mesh;
+  if (request.mesh.empty() && (arguments.mesh_v1 || !arguments.levels.empty()))
+    throw Error(ExitCode::bad_input, "--levels and --mesh-v1 are for geometry: name its file with --mesh");
+  if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
+  request.mesh_v1 = arguments.mesh_v1;
   request.scene = scene_of(arguments);
   return request;
 }
@@ -139,7 +155,8 @@ ordered_json to_json(const WrinkleReport& report) {
   ordered_json trace = ordered_json::array(), outputs = ordered_json::array();
   for (const wrinkle::SolveStep& step : field.real.trace)
     trace.push_back({{"iteration", step.iteration}, {"seconds", step.seconds}, {"energy_J", step.energy}});
-  for (const auto& path : report.outputs) outputs.push_back({{"path", path.string()}, {"kind", "field"}});
+  for (const WrinkleOutput& output : report.outputs)
+    outputs.push_back({{"path", output.path.string()}, {"kind", output.kind}});
   return {{"vertices", report.vertices},
           {"faces", report.faces},
           {"wrinkle_free_faces", report.wrinkle_free_faces},
@@ -158,6 +175,7 @@ ordered_json to_json(const WrinkleReport& report) {
           {"phase_residual", field.phase_residual},
           {"solve_s", field.solve_s},
           {"phase_s", field.phase_s},
+          {"upsample_s", report.upsample_s},
           {"wall_s", report.wall_s},
           {"outputs", outputs},
           {"trace", trace}};
@@ -186,7 +204,7 @@ int run_wrinkle(Arguments& arguments) {
                   report.faces, field.waves, 1e3 * report.max_amplitude, field.whole.energy,
                   field.real.iterations, field.real.reason, report.wall_s));
   if (report.max_amplitude == 0) log::notice("nothing wrinkles: no face is compressed enough");
-  for (const auto& path : report.outputs) log::notice(fmt::format("→ {}", path.string()));
+  for (const WrinkleOutput& output : report.outputs) log::notice(fmt::format("→ {}", output.path.string()));
   write_report(to_json(report), arguments.common.json());
   return static_cast<int>(converged ? ExitCode::fine : ExitCode::check_failed);
 }

@@ -47,23 +47,25 @@ CornerField::CornerField(const LoopLevel& level, std::vector<std::array<double, 
   }
 }
 
-CornerField::Neighbourhood CornerField::around(const LoopLevel& level, std::size_t face,
-                                               std::size_t place) const {
-  Neighbourhood near;
-  const auto see = [&](std::size_t f, double shift) {
-    near.faces.push_back(static_cast<std::uint32_t>(f));
+void CornerField::look_around(const LoopLevel& level, std::size_t face, std::size_t place,
+                              Neighbourhood& near) const {
+  near.vertices.clear();
+  near.faces.clear();
+  const auto see = [&](std::size_t f, std::size_t at, double shift) {
+    near.faces.push_back({static_cast<std::uint32_t>(f), at, shift});
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = level.faces[f][c];
-      const bool fresh = std::none_of(near.seen.begin(), near.seen.end(),
-                                      [&](const Seen& seen) { return seen.vertex == v; });
-      if (fresh) near.seen.push_back({v, values_[f][c] + shift});
+      const bool fresh = std::none_of(near.vertices.begin(), near.vertices.end(),
+                                      [&](const Vertex& known) { return known.vertex == v; });
+      if (fresh) near.vertices.push_back({v, values_[f][c] + shift});
     }
   };
-  see(face, 0);
+  see(face, place, 0);
   if (place >= 3) {
     const std::size_t side = place - 3;
-    if (const auto shift = shift_[face][side]) see(level.across[face][side] / 3, *shift);
-    return near;
+    const std::uint32_t beyond = level.across[face][side];
+    if (const auto shift = shift_[face][side]) see(beyond / 3, 3 + beyond % 3, *shift);
+    return;
   }
   // Both ways round the vertex: across the side that leads to it, then across the one that leads away.
   for (const bool to : {true, false}) {
@@ -76,28 +78,28 @@ CornerField::Neighbourhood CornerField::around(const LoopLevel& level, std::size
       shift += *step;
       const std::uint32_t beyond = level.across[f][side];
       f = beyond / 3;
-      if (f == face) return near;  // all round
+      if (f == face) return;  // all round
       corner = to ? beyond % 3 : (beyond % 3 + 1) % 3;
-      see(f, shift);
+      see(f, corner, shift);
     }
   }
-  return near;
 }
 
 double CornerField::value(const Neighbourhood& near, std::uint32_t vertex, const LoopLevel& level,
                           const std::vector<glm::dvec3>& positions) const {
-  for (const Seen& seen : near.seen)
-    if (seen.vertex == vertex) return seen.value;
+  for (const Vertex& known : near.vertices)
+    if (known.vertex == vertex) return known.value;
   glm::dvec3 slope(0);
   double total = 0;
-  for (const std::uint32_t f : near.faces) {
-    const auto& t = level.faces[f];
+  for (const Face& face : near.faces) {
+    const auto& t = level.faces[face.face];
     double weight = 0;
-    const glm::dvec3 own = gradient({positions[t[0]], positions[t[1]], positions[t[2]]}, values_[f], weight);
+    const glm::dvec3 own =
+        gradient({positions[t[0]], positions[t[1]], positions[t[2]]}, values_[face.face], weight);
     slope += weight * own;
     total += weight;
   }
-  const Seen& from = near.seen.front();
+  const Vertex& from = near.vertices.front();
   return from.value + (total > 0 ? glm::dot(slope / total, positions[vertex] - positions[from.vertex]) : 0);
 }
 
@@ -116,30 +118,21 @@ CornerField CornerField::refined(const LoopLevel& coarse, const LoopLevel& fine,
   result.values_.assign(fine.faces.size(), {0, 0, 0});
   result.known_.assign(fine.faces.size(), false);
   result.shift_.resize(fine.faces.size());
-  // The six points of each coarse face, once each.
+  // The six points of each coarse face. One sum is for all faces of a neighbourhood: jumps stay exact.
   std::vector<std::array<std::optional<double>, 6>> points(coarse.faces.size());
-  std::vector<std::optional<double>> first(fine.vertex_count);
+  Neighbourhood near;
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
     const std::uint32_t parent = fine.parent[f];
     if (!known_[parent]) continue;
     result.known_[f] = true;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t place = fine.place[f][c];
-      std::optional<double>& point = points[parent][place];
-      const std::uint32_t v = fine.faces[f][c];
-      if (!point) {
-        double fresh = sum(around(coarse, parent, place), fine.masks, v, coarse, positions);
-        // Found from another face before, the same but for rounding: jumps stay exact.
-        if (first[v]) {
-          const double jump = fresh - *first[v],
-                       whole = period_ > 0 ? period_ * std::round(jump / period_) : 0;
-          if (std::abs(jump - whole) <= 1e-9 * (std::abs(fresh) + period_)) fresh = *first[v] + whole;
-        } else {
-          first[v] = fresh;
-        }
-        point = fresh;
+      if (!points[parent][place]) {
+        look_around(coarse, parent, place, near);
+        const double here = sum(near, fine.masks, fine.faces[f][c], coarse, positions);
+        for (const Face& face : near.faces) points[face.face][face.place] = here - face.shift;
       }
-      result.values_[f][c] = *point;
+      result.values_[f][c] = *points[parent][place];
     }
   }
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
@@ -159,15 +152,26 @@ CornerField CornerField::refined(const LoopLevel& coarse, const LoopLevel& fine,
   return result;
 }
 
-CornerField::Limit CornerField::limit(const LoopSubdivision& surface,
-                                      const std::vector<glm::dvec3>& positions, std::size_t face,
-                                      std::size_t corner) const {
+std::vector<std::array<CornerField::Limit, 3>> CornerField::limits(
+    const LoopSubdivision& surface, const std::vector<glm::dvec3>& positions) const {
   const LoopLevel& level = surface.levels.back();
-  const std::uint32_t v = level.faces[face][corner];
-  const Neighbourhood near = around(level, face, corner);
-  Limit result;
-  result.value = sum(near, surface.limit, v, level, positions);
-  for (std::size_t i = 0; i < 2; ++i) result.along[i] = sum(near, surface.tangents[i], v, level, positions);
+  std::vector<std::array<Limit, 3>> result(level.faces.size());
+  std::vector<std::array<bool, 3>> done(level.faces.size(), {false, false, false});
+  Neighbourhood near;
+  for (std::size_t f = 0; f < level.faces.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!known_[f] || done[f][c]) continue;
+      const std::uint32_t v = level.faces[f][c];
+      look_around(level, f, c, near);
+      Limit here{sum(near, surface.limit, v, level, positions), {}};
+      for (std::size_t i = 0; i < 2; ++i) here.along[i] = sum(near, surface.tangents[i], v, level, positions);
+      for (const Face& face : near.faces) {
+        done[face.face][face.place] = true;
+        result[face.face][face.place] = here;
+        result[face.face][face.place].value -= face.shift;
+      }
+    }
+  }
   return result;
 }
 

@@ -33,28 +33,34 @@ class CornerField {
   CornerField refined(const LoopLevel& coarse, const LoopLevel& fine,
                       const std::vector<glm::dvec3>& positions) const;
 
-  // On the limit surface: at a corner, the value and its change along both tangents. Only of known faces.
+  // On the limit surface: each corner's value and its change along both tangents; 0 on faces that are not
+  // known. positions: of the last level.
   struct Limit {
     double value = 0;
     std::array<double, 2> along{};
   };
-  Limit limit(const LoopSubdivision& surface, const std::vector<glm::dvec3>& positions, std::size_t face,
-              std::size_t corner) const;
+  std::vector<std::array<Limit, 3>> limits(const LoopSubdivision& surface,
+                                           const std::vector<glm::dvec3>& positions) const;
 
  private:
   CornerField() = default;
 
-  struct Seen {
+  struct Vertex {
     std::uint32_t vertex;
     double value;
   };
-  // The vertices round a corner, or on both sides of side `place − 3`, that can be reached, in the branch of
-  // the face.
-  struct Neighbourhood {
-    std::vector<Seen> seen;
-    std::vector<std::uint32_t> faces;
+  struct Face {
+    std::uint32_t face;
+    std::size_t place;  // what the point is there
+    double shift;       // to be added to its values
   };
-  Neighbourhood around(const LoopLevel& level, std::size_t face, std::size_t place) const;
+  // What can be reached of the faces round a point of a face: a corner's are all round it, those of a side's
+  // middle on both sides. Values are in the branch of the first face.
+  struct Neighbourhood {
+    std::vector<Vertex> vertices;
+    std::vector<Face> faces;
+  };
+  void look_around(const LoopLevel& level, std::size_t face, std::size_t place, Neighbourhood& near) const;
   double value(const Neighbourhood& near, std::uint32_t vertex, const LoopLevel& level,
                const std::vector<glm::dvec3>& positions) const;
   // Σ weight · value over a row of masks.

@@ -60,19 +60,20 @@ int chosen_levels(const LoadedScene& scene, std::optional<int> given) {
 }  // namespace
 
 int levels_for(const LoadedScene& scene) {
-  const double segments = segments_per_wave * most_waves_on_an_edge(scene);
+  return levels_for(most_waves_on_an_edge(scene), scene.surface().triangle_count(), most_triangles);
+}
+
+int levels_for(double waves, std::size_t triangles, double most) {
+  const double segments = segments_per_wave * waves;
   int levels = 0;
   while (levels < most_levels && std::exp2(levels) < segments) ++levels;
   const int wanted = levels;
-  while (levels > 0 &&
-         static_cast<double>(scene.surface().triangle_count()) * std::exp2(2 * levels) > most_triangles)
-    --levels;
+  while (levels > 0 && static_cast<double>(triangles) * std::exp2(2 * levels) > most) --levels;
   if (levels < wanted || std::exp2(levels) < segments) {
     log::warn(fmt::format(
         "the longest edge has {:.1f} waves; edges are halved {} times, which gives a wave {:.1f} segments "
         "there in place of {:.0f}",
-        segments / segments_per_wave, levels, std::exp2(levels) * segments_per_wave / segments,
-        segments_per_wave));
+        waves, levels, std::exp2(levels) * segments_per_wave / segments, segments_per_wave));
   }
   return levels;
 }

@@ -14,6 +14,10 @@ namespace plisse::pipeline {
 // frame; fewer where that made more than four million triangles (a warning says so). 0 without waves.
 int levels_for(const LoadedScene& scene);
 
+// The same from numbers: `waves` on the edge that has most of them, `triangles` before they are split, at
+// most so many after.
+int levels_for(double waves, std::size_t triangles, double most_triangles);
+
 class Displacement {
  public:
   // Edges are halved `levels` times, or as levels_for says.

@@ -9,10 +9,12 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "io/ply.h"
 #include "io/wrinkle_field.h"
 #include "pipeline/drape.h"
+#include "pipeline/wrinkle_mesh.h"
 #include "shell/carry.h"
 
 namespace plisse {
@@ -20,6 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point began) {
+  return std::chrono::duration<double>(Clock::now() - began).count();
+}
 
 Error bad(const fs::path& file, const std::string& what) {
   return {ExitCode::bad_input, fmt::format("{}: {}", file.string(), what)};
@@ -63,8 +69,7 @@ std::vector<double> vertex_phases(const wrinkle::BaseSurface& surface, const wri
   return result;
 }
 
-std::vector<fs::path> write(const fs::path& output, const wrinkle::BaseSurface& surface,
-                            const wrinkle::Field& field) {
+void write(const fs::path& output, const wrinkle::BaseSurface& surface, const wrinkle::Field& field) {
   if (output.extension() == ".txt") {
     io::write_wrinkle_texts(output, values(field.whole.waves.amplitude), vertex_phases(surface, field),
                             values(field.one_form));
@@ -74,7 +79,31 @@ std::vector<fs::path> write(const fs::path& output, const wrinkle::BaseSurface& 
       if (!solution->converged && comments.empty()) comments.push_back("not converged: " + solution->reason);
     io::write_wrinkle_field(output, as_file(surface, field), comments);
   }
-  return {output};
+}
+
+void check_outputs(const WrinkleRequest& request) {
+  if (!request.output.empty()) {
+    if (request.output.extension() != ".ply" && request.output.extension() != ".txt")
+      throw bad(request.output,
+                "fields are written as .ply, or as NAME_amplitude_REST.txt with phi and dphi beside it");
+    check_writable(request.output);
+  }
+  if (!request.mesh.empty()) {
+    const std::string ending = lower_case(request.mesh.extension().string());
+    if (ending != ".ply" && ending != ".obj" && ending != ".glb")
+      throw bad(request.mesh, "meshes are written as .ply, .obj or .glb");
+    if (request.mesh == request.output) throw bad(request.mesh, "is both the field and the mesh");
+    check_writable(request.mesh);
+  }
+}
+
+// The waves as geometry.
+WrinkleMesh mesh_of(const WrinkleRequest& request, const std::vector<wrinkle::FaceForms>& forms,
+                    const wrinkle::CoarseField& field) {
+  const WrinkleScene& scene = request.scene;
+  Eigen::Matrix3Xd lean;
+  if (request.mesh_v1) lean = wrinkle::leaning(scene.surface, forms, scene.material.poisson, field);
+  return wrinkle_mesh(scene.name, scene.surface, field, request.levels, request.v2, std::move(lean));
 }
 
 }  // namespace
@@ -150,12 +179,7 @@ WrinkleScene base_of(const DrapeScene& scene) {
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request) {
   const auto began = Clock::now();
-  if (!request.output.empty()) {
-    if (request.output.extension() != ".ply" && request.output.extension() != ".txt")
-      throw bad(request.output,
-                "fields are written as .ply, or as NAME_amplitude_REST.txt with phi and dphi beside it");
-    check_writable(request.output);
-  }
+  check_outputs(request);
   const wrinkle::BaseSurface& surface = request.scene.surface;
   const auto forms = wrinkle::face_forms(surface, request.curvature);
   const auto free = wrinkle::wrinkle_free_faces(forms, surface.topology, request.rule);
@@ -174,8 +198,19 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request) {
   report.max_amplitude = amplitude.size() > 0 ? amplitude.maxCoeff() : 0;
   report.wrinkled_vertices =
       static_cast<std::size_t>((amplitude.array() > 0.01 * report.max_amplitude).count());
-  if (!request.output.empty()) report.outputs = write(request.output, surface, report.field);
-  report.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
+  if (!request.output.empty()) {
+    write(request.output, surface, report.field);
+    report.outputs.push_back({request.output, "field"});
+  }
+  if (!request.mesh.empty()) {
+    const auto upsampling = Clock::now();
+    const WrinkleMesh mesh = mesh_of(request, forms, {amplitude, report.field.phase});
+    report.levels = mesh.levels;
+    report.upsample_s = since(upsampling);
+    io::write_mesh(request.mesh, mesh.file);
+    report.outputs.push_back({request.mesh, "mesh"});
+  }
+  report.wall_s = since(began);
   return report;
 }
 

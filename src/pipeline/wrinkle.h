@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct WrinkleRequest {
   wrinkle::FieldOptions options;
   std::filesystem::path
       output;  // field.ply, or NAME_amplitude_REST.txt for the authors' three text files; empty: none
+  std::filesystem::path mesh;  // the waves as geometry: .ply, .obj or .glb; empty: none
+  std::optional<int> levels;   // how often edges are halved for it; see wrinkle_mesh
+  bool mesh_v1 = false;        // its waves lean with the base surface's curvature
+};
+
+struct WrinkleOutput {
+  std::filesystem::path path;
+  std::string kind;  // "field", "mesh"
 };
 
 struct WrinkleReport {
@@ -42,8 +51,9 @@ struct WrinkleReport {
   wrinkle::Field field;
   double max_amplitude = 0;           // metres
   std::size_t wrinkled_vertices = 0;  // amplitude above a hundredth of the largest
-  std::vector<std::filesystem::path> outputs;
-  double wall_s = 0;
+  std::vector<WrinkleOutput> outputs;
+  int levels = 0;  // of the mesh
+  double upsample_s = 0, wall_s = 0;
 };
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request);

@@ -143,6 +143,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
   result.normals = vertex_normals(result.faces, result.positions);
   result.phase = Eigen::VectorXd::Zero(result.positions.cols());
   result.gradient = Eigen::Matrix3Xd::Zero(3, result.positions.cols());
+  const auto limits = phase.limits(loop, positions);
   std::vector<bool> done(last.vertex_count, false);
   for (std::size_t f = 0; f < last.faces.size(); ++f) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -155,7 +156,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
       if (spans) result.normals.col(column) << n.x / area, n.y / area, n.z / area;
       if (!phase.known()[f] || !(amplitude[v] > 0)) continue;
       done[v] = true;
-      const CornerField::Limit limit = phase.limit(loop, positions, f, c);
+      const CornerField::Limit& limit = limits[f][c];
       result.phase[column] = limit.value;
       if (!spans) continue;
       // t·g and u·g are what was found; g lies in their plane.
@@ -165,10 +166,10 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
     }
   }
   if (!uv.empty()) {
+    const auto u = uv[0].limits(loop, positions), v = uv[1].limits(loop, positions);
     for (std::size_t f = 0; f < last.faces.size(); ++f) {
       auto& corners = result.uv.emplace_back();
-      for (std::size_t c = 0; c < 3; ++c)
-        corners[c] = {uv[0].limit(loop, positions, f, c).value, uv[1].limit(loop, positions, f, c).value};
+      for (std::size_t c = 0; c < 3; ++c) corners[c] = {u[f][c].value, v[f][c].value};
     }
   }
   if (!result.positions.allFinite() || !result.amplitude.allFinite() || !result.gradient.allFinite())
