@@ -91,6 +91,35 @@ TEST_F(Wrinkle, TheAuthorsSetUpAndTexts) {
   EXPECT_EQ(back.positions.size(), 273U);
 }
 
+// The waves as geometry: every form has them, as high as the field says, and what other programs need.
+TEST_F(Wrinkle, GeometryOfTheField) {
+  for (const char* mesh : {"mesh.ply", "mesh.obj", "mesh.glb"}) {
+    const Outcome outcome =
+        plisse({"wrinkle", "--example", "stretched-sheet", "--vertices", "200", "-o", file("field.ply"),
+                "--mesh", file(mesh), "--levels", "3", "--json", file("report.json"), "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto json = report();
+    EXPECT_EQ(json["outputs"][1]["kind"], "mesh");
+    EXPECT_GT(json["upsample_s"].get<double>(), 0);
+    ASSERT_EQ(plisse({"info", file(mesh), "--json", file("info.json")}).code, 0);
+    const auto info = nlohmann::json::parse(read_text(folder_ / "info.json"));
+    EXPECT_EQ(info["triangles"], 64 * json["faces"].get<int>()) << mesh;
+    EXPECT_EQ(info["meshes"][0]["uv"], true) << mesh;
+    // The sheet lies in the plane of x and y; its waves stand out of it by a, hardly less between vertices.
+    const auto low = info["bounds"]["low"], high = info["bounds"]["high"];
+    const double height = (high[2].get<double>() - low[2].get<double>()) / 2,
+                 a = json["max_amplitude_m"].get<double>();
+    EXPECT_GT(height, 0.8 * a) << mesh;
+    EXPECT_LE(height, a * (1 + 1e-5)) << mesh;  // Loop's masks are means; single precision
+    EXPECT_NEAR(high[0].get<double>() - low[0].get<double>(), 0.275, 1e-5) << mesh;  // corners stay
+  }
+  EXPECT_EQ(plisse({"wrinkle", "--example", "strip", "--levels", "2", "-o", file("f.ply")}).code, 2);
+  const Outcome ending =
+      plisse({"wrinkle", "--example", "strip", "--mesh", file("m.stl"), "-o", file("f.ply")});
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_THAT(ending.err, HasSubstr(".glb"));
+}
+
 TEST_F(Wrinkle, SaysWhatIsWrong) {
   EXPECT_EQ(plisse({"wrinkle"}).code, 2);
   write_text(folder_ / "x.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n");
