@@ -72,9 +72,23 @@ void add_motion(std::vector<Key>& keys, const std::string& table, const std::str
 
 std::vector<Key> all_keys() {
   std::vector<Key> all = {
-      {"drape", "mesh", "an existing OBJ", "The rest shape, flat or not. Either this or `panel`.",
+      {"drape", "mesh", "an existing OBJ", "The rest shape, flat or not. Either this, `garment` or `panel`.",
        [](DrapeSettings& s, const Node& n, const fs::path& folder) {
          s.mesh = config::existing_file(n, folder);
+       }},
+      {"drape", "garment", "an existing panel file",
+       "Panels with seams (docs/sizing.md): sewn, placed as they say there, their x from right to left of "
+       "who wears "
+       "them.",
+       [](DrapeSettings& s, const Node& n, const fs::path& folder) {
+         s.garment = config::existing_file(n, folder);
+       }},
+      {"drape", "wrap", "a length",
+       "Bends each of a garment's panels round an upright cylinder of this radius before it is placed, x = 0 "
+       "in "
+       "front.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.wrap = config::within(config::length_of(n), lengths);
        }},
       {"drape", "panel", "[width, height], lengths",
        "A rectangle that is meshed here, its lower left corner at the origin.",
@@ -84,7 +98,10 @@ std::vector<Key> all_keys() {
          for (std::size_t k = 0; k < 2; ++k)
            s.panel[k] = config::within(config::length_of((*array)[k]), lengths);
        }},
-      {"drape", "vertices", "20 … 1000000", "About how many vertices the panel's mesh has (default 1000).",
+      {"drape", "vertices", "20 … 1000000",
+       "About how many vertices the panel's mesh has (default 1000), or the garment's (default: as its "
+       "fabrics ask "
+       "for).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.vertices = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {20, 1e6}));
        }},
@@ -293,8 +310,8 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
                                  repeated(name) ? "[[" + name + "]]" : "[" + name + "]"));
     }
   }
-  if (settings.mesh.empty() == (settings.panel[0] == 0))
-    complaints.add({1, 1}, "[drape] needs either 'mesh' or 'panel'");
+  if (!settings.mesh.empty() + !settings.garment.empty() + (settings.panel[0] != 0) != 1)
+    complaints.add({1, 1}, "[drape] needs one of 'mesh', 'garment' and 'panel'");
   complaints.throw_if_any();
   return settings;
 }

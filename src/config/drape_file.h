@@ -38,8 +38,10 @@ struct DrapeSettings {
   };
   std::filesystem::path file;
   std::filesystem::path mesh;  // OBJ: the rest shape, cut apart by its texture coordinates' own vertices; or
+  std::filesystem::path garment;  // panels and their seams (config/panel_file.h); or
+  double wrap = 0;                // m: the radius that its panels are bent to before they are placed; 0: flat
   std::array<double, 2> panel{};  // width and height of a rectangle that is meshed here
-  int vertices = 1000;
+  int vertices = 0;               // of the panel (0: 1000) or garment (0: as fine as its fabric asks for)
   std::uint32_t seed = 1;
   bool upright = true;          // the panel stands in the plane z = 0; else it lies in y = 0
   std::filesystem::path start;  // OBJ of the base's positions; empty: the rest shape

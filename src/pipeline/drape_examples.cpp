@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "config/suggest.h"
 #include "pipeline/drape_mesh.h"
+#include "pipeline/drape_skirt.h"
 #include "shell/fundamental_forms.h"
 
 namespace plisse {
@@ -480,6 +481,8 @@ const std::vector<Maker>& makers() {
       {{"annulus", "a ring pulled harder at its inner edge", 1000}, annulus},
       {{"sphere-drape", "a square of cloth over a sphere (fig. 5)", 1600}, sphere_drape},
       {{"curtain", "cloth on nine hooks that come together", 1500}, curtain},
+      {{"skirt", "four panels, gathered at the waist, on a body that sways", 2500},
+       [](const Wanted& wanted) { return skirt_scene(wanted.vertices, wanted.seed); }},
       {{"cantilever", "a plate strip under its own weight, St. Venant-Kirchhoff shell", 123}, cantilever},
   };
   return all;

@@ -26,14 +26,16 @@ sizing::Polyline scaled(sizing::Polyline line, double factor) {
 
 }  // namespace
 
+double edges_per_length(double area, double around, int vertices) {
+  const double a = sizing::vertex_density * area, b = around / 2, c = 1.0 - vertices;
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
 FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing::Polyline>& holes,
                        int vertices, std::uint32_t seed) {
   double around = outline.length();
   for (const auto& hole : holes) around += hole.length();
-  const double area = area_of(outline, holes);
-  // Vertices of a mesh of edges r: (2/√3) A/r² + P/2r + 1 (src/sizing/sample.h), solved for 1/r.
-  const double a = sizing::vertex_density * area, b = around / 2, c = 1.0 - vertices;
-  double per_edge = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+  double per_edge = edges_per_length(area_of(outline, holes), around, vertices);
 
   sizing::Panel panel;
   panel.fabric = *sizing::find_fabric(sizing::fabrics().front().name);

@@ -16,6 +16,10 @@ struct FlatMesh {
   std::vector<shell::Face> faces;
 };
 
+// Edges a length with which panels of this area and this length of outline have so many vertices in all:
+// (2/√3) A/r² + P/2r + 1 (src/sizing/sample.h), solved for 1/r.
+double edges_per_length(double area, double around, int vertices);
+
 // An irregular mesh of a panel with about `vertices` vertices (within some percent; the panel is scaled so
 // that the mesher of src/sizing finds its fabric's own edge length in it). Evenly divided along straight
 // sides, so that opposite sides of a rectangle match. Throws Error(bad_input) for panels that cannot be

@@ -14,7 +14,9 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "config/drape_file.h"
+#include "config/panel_file.h"
 #include "io/import_obj.h"
+#include "pipeline/drape_garment.h"
 #include "pipeline/drape_mesh.h"
 #include "pipeline/drape_obstacles.h"
 
@@ -78,15 +80,27 @@ std::vector<Held> find_held(const DrapeSettings& settings, const Positions& star
 DrapeScene scene_of(const DrapeSettings& settings) {
   DrapeScene scene;
   scene.name = settings.file.stem().string();
-  const FlatMesh mesh = settings.mesh.empty()
-                            ? delaunay_mesh(rectangle_outline(settings.panel[0], settings.panel[1]), {},
-                                            settings.vertices, settings.seed)
-                            : read_mesh(settings.mesh);
-  scene.rest = scene.start = mesh.points;
-  scene.rest_faces = scene.faces = mesh.faces;
-  if (settings.mesh.empty() && !settings.upright) {
-    scene.start.row(2) = -mesh.points.row(1);
-    scene.start.row(1).setZero();
+  if (!settings.garment.empty()) {
+    const PanelFile panels = load_panels(settings.garment);
+    const SewnGarment sewn = settings.vertices > 0
+                                 ? sew_garment(panels.garment, settings.vertices, settings.seed)
+                                 : sew_garment(panels.garment, panels.options);
+    scene.rest = sewn.rest.points;
+    scene.rest_faces = sewn.rest.faces;
+    scene.faces = sewn.faces;
+    scene.start = placed(sewn, panels.garment, settings.wrap);
+  } else {
+    const int vertices = settings.vertices > 0 ? settings.vertices : 1000;
+    const FlatMesh mesh = settings.mesh.empty()
+                              ? delaunay_mesh(rectangle_outline(settings.panel[0], settings.panel[1]), {},
+                                              vertices, settings.seed)
+                              : read_mesh(settings.mesh);
+    scene.rest = scene.start = mesh.points;
+    scene.rest_faces = scene.faces = mesh.faces;
+    if (settings.mesh.empty() && !settings.upright) {
+      scene.start.row(2) = -mesh.points.row(1);
+      scene.start.row(1).setZero();
+    }
   }
   if (!settings.start.empty()) scene.start = read_start(settings.start, scene);
   scene.material = {settings.young, settings.poisson, settings.thickness, settings.density};

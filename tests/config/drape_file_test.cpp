@@ -45,9 +45,9 @@ TEST(DrapeFile, AllMistakesAtOnce) {
         "[drape]\nvertices = 5\n[materials]\nyoung = 1\n[loads]\ngravity = [0, 1]\n[hold]\nturn = 1\n",
         "bad.toml");
   });
-  EXPECT_THAT(
-      all, AllOf(HasSubstr("bad.toml:1:1: [drape] needs either 'mesh' or 'panel'"), HasSubstr("bad.toml:2"),
-                 HasSubstr("did you mean 'material'"), HasSubstr("bad.toml:6"), HasSubstr("write [[hold]]")));
+  EXPECT_THAT(all, AllOf(HasSubstr("bad.toml:1:1: [drape] needs one of 'mesh', 'garment' and 'panel'"),
+                         HasSubstr("bad.toml:2"), HasSubstr("did you mean 'material'"),
+                         HasSubstr("bad.toml:6"), HasSubstr("write [[hold]]")));
 }
 
 TEST(DrapeFile, ReferenceIsWhatTheParserSays) {

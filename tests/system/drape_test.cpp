@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <csignal>
+#include <glm/glm.hpp>
+#include <map>
 #include <numbers>
 
 #include "io/ply.h"
@@ -287,6 +289,82 @@ TEST(Drape, ACurvedRestShapeStaysCurved) {
     for (const double y : ply.find("vertex")->find("y")->values) high = std::max(high, y);
     EXPECT_NEAR(high, 0.1, 1e-6) << model;  // the start of stvk is shaken, by a tenth of its thickness
   }
+}
+
+// Boundary loops of a base surface, by their lengths, m; every edge of it has one triangle or two.
+std::vector<double> boundary_loops(const io::Ply& ply) {
+  std::map<std::pair<int, int>, int> uses;
+  const auto& corners = ply.find("face")->find("vertex_indices")->values;
+  for (std::size_t c = 0; c < corners.size(); c += 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      ++uses[std::minmax(static_cast<int>(corners[c + k]), static_cast<int>(corners[c + (k + 1) % 3]))];
+  std::map<int, std::vector<int>> next;
+  for (const auto& [edge, count] : uses) {
+    EXPECT_LE(count, 2);
+    if (count != 1) continue;
+    next[edge.first].push_back(edge.second);
+    next[edge.second].push_back(edge.first);
+  }
+  const auto at = [&](int v) {
+    const auto* vertex = ply.find("vertex");
+    const auto i = static_cast<std::size_t>(v);
+    return glm::dvec3(vertex->find("x")->values[i], vertex->find("y")->values[i],
+                      vertex->find("z")->values[i]);
+  };
+  std::vector<double> loops;
+  while (!next.empty()) {
+    double length = 0;
+    for (int v = next.begin()->first; next.contains(v) && !next[v].empty();) {
+      const int other = next[v].back();
+      next[v].pop_back();
+      std::erase(next[other], v);
+      length += glm::distance(at(v), at(other));
+      v = other;
+    }
+    std::erase_if(next, [](const auto& item) { return item.second.empty(); });
+    loops.push_back(length);
+  }
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+// Sewn all round: a waist and a hem are all the boundary there is. The body of 27,000 triangles turns inside.
+TEST(Drape, TheSkirtGoesWithItsBody) {
+  const TemporaryFolder folder;
+  const std::string report = (folder / "report.json").string();
+  const Outcome outcome = plisse({"drape", "--example", "skirt", "--vertices", "400", "--frames", "1-3", "-o",
+                                  (folder / "skirt_#.ply").string(), "--json", report});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const auto& frame : nlohmann::json::parse(read_text(report))["frames"]) {
+    EXPECT_TRUE(frame["converged"].get<bool>());
+    EXPECT_EQ(frame["inside"], 0);
+    EXPECT_LT(frame["nearest_m"].get<double>(), 4e-3);  // it lies on the hips, within the gap
+  }
+  const auto loops = boundary_loops(io::read_ply(folder / "skirt_3.ply"));
+  ASSERT_EQ(loops.size(), 2U);
+  // The waist is held; the hem's rest length is 1.4 · 1.5 of it, and slack where it hangs straight.
+  EXPECT_GT(loops[0], 0.65);
+  EXPECT_LT(loops[0], 0.8);
+  EXPECT_GT(loops[1], 1.2 * loops[0]);
+}
+
+TEST(Drape, GarmentsAreSewnAndWrapped) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      "[drape]\ngarment = \"" + source_file("assets/skirt.toml").string() +
+      "\"\nvertices = 300\n[material]\nyoung = 2e5\nthickness = \"0.5 mm\"\ndensity = 300\n"
+      "[[hold]]\nbox = [[-1, 1.0399, -1], [1, 2, 1]]\n"
+      "[[obstacle]]\nkind = \"capsule\"\nat = [0, 0.95, 0]\nto = [0, 0.6, 0]\nradius = \"10 cm\"\n";
+  write_text(folder / "skirt.toml", scene);
+  const Outcome outcome =
+      plisse({"drape", (folder / "skirt.toml").string(), "-o", (folder / "base.ply").string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto loops = boundary_loops(io::read_ply(folder / "base.ply"));
+  ASSERT_EQ(loops.size(), 2U);
+  EXPECT_GT(loops[0], 0.8);  // the waist: two bands of 40 cm, pulled straight between the panels' planes
+  write_text(folder / "cube.toml", "[drape]\ngarment = \"skirt.toml\"\npanel = [1, 1]\n");
+  EXPECT_THAT(plisse({"drape", (folder / "cube.toml").string()}).err,
+              HasSubstr("needs one of 'mesh', 'garment' and 'panel'"));
 }
 
 TEST(Drape, SmallExamplesAreSewn) {
