@@ -74,6 +74,15 @@ struct Arguments {
         ->type_name("X");
     app.add_option("--frequency", frequency, "Start with waves so many times as dense (default 1)")
         ->type_name("X");
+    app.add_flag(
+        "--starts", all_starts,
+        described(
+            "Start with waves .5, .7, 1.4 and 2 times as dense, too, and take the lowest energy, patch by "
+            "patch"));
+    app.add_flag(
+        "--crest-compression", crest_compression,
+        described("Let compression along the crests count where there is some both ways, as the paper's "
+                  "energy has it; without, it costs nothing"));
     app.add_option("--iterations", iterations, "At most so many Newton steps (default 500)")->type_name("N");
     app.add_option(
            "--evaluate", evaluate,
@@ -88,7 +97,7 @@ struct Arguments {
                                               curvature = "2", factor = "1", frequency = "1",
                                               iterations = "500";
   std::vector<std::string> without, evaluate;
-  bool free_held = false, mesh_v1 = false;
+  bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false;
 };
 
 double number_in(const std::string& option, const std::string& text, double low, double high) {
@@ -139,6 +148,8 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.curvature_factor = number_in("--curvature-factor", arguments.factor, 0, 1e6);
   request.options.frequency = number_in("--frequency", arguments.frequency, 1e-3, 1e3);
   request.options.solve.max_iterations = whole_number("--iterations", arguments.iterations, 0, 1000000);
+  request.options.all_starts = arguments.all_starts;
+  request.crest_compression = arguments.crest_compression;
   request.pin_held = !arguments.free_held;
   request.output = arguments.output;
   request.mesh = arguments.mesh;
@@ -152,8 +163,14 @@ WrinkleRequest request_of(const Arguments& arguments) {
 
 ordered_json to_json(const WrinkleReport& report) {
   const wrinkle::Field& field = report.field;
-  ordered_json trace = ordered_json::array(), outputs = ordered_json::array();
-  for (const wrinkle::SolveStep& step : field.real.trace)
+  ordered_json trace = ordered_json::array(), starts = ordered_json::array(), outputs = ordered_json::array();
+  for (const wrinkle::FieldStart& start : field.starts)
+    starts.push_back({{"frequency", start.frequency},
+                      {"energy_start_J", start.start_energy},
+                      {"energy_J", start.energy},
+                      {"iterations", start.iterations},
+                      {"converged", start.converged}});
+  for (const wrinkle::SolveStep& step : field.trace)
     trace.push_back({{"iteration", step.iteration}, {"seconds", step.seconds}, {"energy_J", step.energy}});
   for (const WrinkleOutput& output : report.outputs)
     outputs.push_back({{"path", output.path.string()}, {"kind", output.kind}});
@@ -171,6 +188,8 @@ ordered_json to_json(const WrinkleReport& report) {
           {"max_amplitude_m", report.max_amplitude},
           {"wrinkled_vertices", report.wrinkled_vertices},
           {"waves", field.waves},
+          {"waves_round", field.count.round},
+          {"waves_length_m", field.count.length},
           {"periods", field.whole.waves.period.size()},
           {"phase_residual", field.phase_residual},
           {"solve_s", field.solve_s},
@@ -178,6 +197,7 @@ ordered_json to_json(const WrinkleReport& report) {
           {"upsample_s", report.upsample_s},
           {"wall_s", report.wall_s},
           {"outputs", outputs},
+          {"starts", starts},
           {"trace", trace}};
 }
 

@@ -41,7 +41,8 @@ double value_in(const io::Ply& ply, const fs::path& file, const std::string& nam
 }
 
 wrinkle::Model model_of(const WrinkleRequest& request) {
-  return {request.scene.material, request.v1, request.v2, request.curvature_factor};
+  return {request.scene.material, request.v1, request.v2, request.curvature_factor,
+          request.crest_compression};
 }
 
 std::vector<double> values(const Eigen::VectorXd& vector) {

@@ -32,6 +32,7 @@ struct WrinkleRequest {
   wrinkle::CurvatureFit curvature;
   bool v1 = true, v2 = true;  // ablations, see wrinkle::Model
   double curvature_factor = 1;
+  bool crest_compression = false;
   bool pin_held = true;  // no amplitude where the surface is held
   wrinkle::FieldOptions options;
   std::filesystem::path

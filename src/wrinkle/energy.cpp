@@ -53,9 +53,15 @@ double squared_norm(const Matrix2d& m, double alpha, double beta) {
 
 }  // namespace
 
+Matrix2d wrinkled_strain(const FaceForms& forms, const Model& model) {
+  const PrincipalStrain principal = principal_strain(forms);
+  if (model.crest_compression || principal.tension >= 0) return forms.strain;
+  return forms.strain - principal.tension * principal.crest * principal.crest.transpose();
+}
+
 FaceEnergy::FaceEnergy(const FaceForms& forms, const Model& model) : gradient_(forms.rest.gradients) {
   const double h = model.material.thickness, alpha = model.material.alpha(), beta = model.material.beta();
-  const Matrix2d& strain = forms.strain;
+  const Matrix2d strain = wrinkled_strain(forms, model);
   scale_ = forms.rest.area * h / 4;
   constant_ = squared_norm(strain, alpha, beta);
   stress_ = alpha / 2 * strain.trace() * Matrix2d::Identity() + beta * strain;

@@ -18,7 +18,14 @@ struct Model {
   bool v2 = true;  // without: purely normal displacement
   // Multiplies W²; 1.44 makes it the one of the authors' program, for comparisons with it.
   double curvature_factor = 1;
+  // W¹ as (21) has it also where both principal strains are compressive. Without, strain along the crests
+  // counts as 0 there: tension field theory has such cloth slack, and what shortens it along the crests is
+  // nothing that these waves could take up but by amplitudes that zigzag from vertex to vertex.
+  bool crest_compression = false;
 };
+
+// S of W¹: the strain, but for what the model says of compression along the crests.
+Eigen::Matrix2d wrinkled_strain(const FaceForms& forms, const Model& model);
 
 // Local variables: a₀, a₁, a₂ (metres), then dφ's two components (radians per metre, in the face's frame).
 using LocalVector = Eigen::Matrix<double, 5, 1>;

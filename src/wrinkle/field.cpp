@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
+#include "wrinkle/local_waves.h"
+#include "wrinkle/patches.h"
 #include "wrinkle/start.h"
 
 namespace plisse::wrinkle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Eigen::Index;
+using Eigen::VectorXd;
 
 double since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -19,15 +25,10 @@ bool flat(const Waves& waves) {
   return waves.amplitude.size() == 0 || !(waves.amplitude.maxCoeff() > 0);
 }
 
-// The best of the standard start and, only where that ends without waves, of others.
-Solution solve_from_starts(const Problem& problem, const FieldOptions& options) {
-  Solution best = solve(problem, initial_waves(problem, options.frequency), options.solve);
-  if (!flat(best.waves)) return best;
-  for (const double factor : {0.7, 1.4}) {
-    Solution other = solve(problem, initial_waves(problem, factor * options.frequency), options.solve);
-    if (other.energy < best.energy) best = std::move(other);
-  }
-  return best;
+Waves flat_waves(const Problem& problem) {
+  const auto zeros = [](std::size_t count) { return VectorXd(VectorXd::Zero(static_cast<Index>(count))); };
+  return {zeros(problem.pinned().size()), zeros(problem.complex().vertices),
+          zeros(problem.complex().periods)};
 }
 
 // Vertices of live faces that have no amplitude at any corner.
@@ -42,40 +43,204 @@ std::vector<bool> dead_vertices(const Problem& problem, const Waves& waves) {
   return dead;
 }
 
+// The search for the lowest field: one problem after the other on the same surface, each with its own
+// released vertices, and the lowest solution so far.
+class Search {
+ public:
+  Search(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
+         const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped, const FieldOptions& options)
+      : forms_(forms),
+        wrinkle_free_(wrinkle_free),
+        clamped_(clamped),
+        options_(options),
+        released_(topology.vertex_count, false),
+        whole_(std::make_shared<const Problem>(topology, forms, model, wrinkle_free, clamped)),
+        problem_(whole_) {
+    clamped_.resize(topology.vertex_count, false);
+    // Which vertices would have waves if each face could do as it likes.
+    const auto local = local_waves(forms, topology, problem_->complex().live, problem_->pinned(), model);
+    VectorXd wish = VectorXd::Zero(static_cast<Index>(topology.vertex_count));
+    for (std::size_t f = 0; f < local.size(); ++f) {
+      if (!problem_->complex().live[f]) continue;
+      const bool wants = local[f].compression > local[f].critical(model, local[f].gradient.norm());
+      for (const std::uint32_t v : topology.faces[f]) wish[v] += (wants ? 1 : -1) * forms[f].rest.area;
+    }
+    for (const double w : wish) wants_.push_back(w > 0);
+  }
+
+  const Problem& problem() const { return *problem_; }
+
+  void start(Field& field) {
+    std::vector<double> frequencies{1};
+    if (options_.all_starts) frequencies = {1, 0.5, std::numbers::sqrt2 / 2, std::numbers::sqrt2, 2};
+    std::vector<Solution> ends;
+    for (const double frequency : frequencies) {
+      ends.push_back(
+          run(*problem_, initial_waves(*problem_, frequency * options_.frequency), options_.solve));
+      const Solution& end = ends.back();
+      field.starts.push_back(
+          {frequency * options_.frequency, end.start_energy, end.energy, end.iterations, end.converged});
+    }
+    best_ = lowest_by_patch(std::move(ends));
+  }
+
+  void release() {
+    constexpr int rounds = 4;  // each is a solve or a few; most fields need one or two
+    for (int round = 0; round < rounds && !flat(best_.waves); ++round) {
+      const std::vector<bool> dead = dead_vertices(*problem_, best_.waves);
+      if (!revived(dead) && !widened(dead) && !won_back()) break;
+    }
+    if (!best_.converged && best_.iterations < options_.solve.max_iterations)
+      best_ = run(*problem_, best_.waves, options_.solve);
+  }
+
+  void finish(Field& field) {
+    field.released.assign(forms_.size(), false);
+    for (std::size_t f = 0; f < forms_.size(); ++f)
+      field.released[f] = whole_->complex().live[f] && !problem_->complex().live[f];
+    field.real = std::move(best_);
+    field.trace = std::move(trace_);
+  }
+
+ private:
+  // Less by this part of what is above the relaxed energy counts as less: a release must be worth it.
+  static constexpr double worth = 1e-5;
+
+  // What a try shows in that many steps it shows at all.
+  SolveOptions brief() const {
+    SolveOptions result = options_.solve;
+    result.max_iterations = std::min(result.max_iterations, 60);
+    return result;
+  }
+
+  Solution run(const Problem& problem, const Waves& start, const SolveOptions& options) {
+    const double began = since(begin_);
+    Solution solution = solve(problem, start, options);
+    for (const SolveStep& step : solution.trace) {
+      if (trace_.empty() || step.energy < trace_.back().energy)
+        trace_.push_back({iterations_ + step.iteration, began + step.seconds, step.energy});
+    }
+    iterations_ += solution.iterations;
+    return solution;
+  }
+
+  bool less(const Solution& a) const {
+    return a.energy < best_.energy - worth * (best_.energy - problem_->relaxed_energy());
+  }
+
+  // Patches have nothing to do with each other: each may take the start that suits it, or stay flat.
+  Solution lowest_by_patch(std::vector<Solution> ends) {
+    Solution none;
+    none.waves = flat_waves(*problem_);
+    none.energy = problem_->energy(problem_->pack(none.waves)) + problem_->relaxed_energy();
+    none.converged = true;
+    none.reason = "stationary";
+    Solution best = ends[0];
+    const auto parts = patches(problem_->topology(), problem_->complex().live);
+    std::vector<VectorXd> energy;
+    ends.push_back(none);
+    for (const Solution& end : ends) energy.push_back(problem_->face_energies(problem_->pack(end.waves)));
+    bool mixed = false;
+    for (const auto& faces : parts) {
+      std::size_t lowest = 0;
+      std::vector<double> sums;
+      for (const VectorXd& e : energy) {
+        double sum = 0;
+        for (const std::uint32_t f : faces) sum += e[f];
+        sums.push_back(sum);
+      }
+      for (std::size_t i = 1; i < sums.size(); ++i)
+        if (sums[i] < sums[lowest]) lowest = i;
+      if (lowest == 0) continue;
+      mixed = true;
+      problem_->copy_patch(faces, ends[lowest].waves, best.waves);
+    }
+    if (!mixed) return best;
+    return run(*problem_, best.waves, options_.solve);
+  }
+
+  // Waves for dead vertices that want them, without any release.
+  bool revived(const std::vector<bool>& dead) {
+    bool any = false;
+    for (std::size_t v = 0; v < dead.size(); ++v) any = any || (dead[v] && wants_[v]);
+    if (!any) return false;
+    Solution other = run(*problem_, continued_waves(*problem_, *problem_, best_.waves), brief());
+    if (!less(other)) return false;
+    best_ = std::move(other);
+    return true;
+  }
+
+  bool take(const std::vector<bool>& released) {
+    std::vector<bool> pinned = clamped_;
+    for (std::size_t v = 0; v < pinned.size(); ++v) pinned[v] = pinned[v] || released[v];
+    auto problem =
+        std::make_shared<const Problem>(whole_->topology(), forms_, whole_->model(), wrinkle_free_, pinned);
+    Solution other = run(*problem, continued_waves(*problem, *problem_, best_.waves), brief());
+    if (!less(other)) return false;
+    best_ = std::move(other);
+    problem_ = std::move(problem);
+    released_ = released;
+    return true;
+  }
+
+  // More released: what is dead; first only what waves go round.
+  bool widened(const std::vector<bool>& dead) {
+    if (std::find(dead.begin(), dead.end(), true) == dead.end()) return false;
+    std::vector<bool> all = released_;
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = all[v] || dead[v];
+    return take(all);
+  }
+
+  // Less released: what wants waves and lies beside some.
+  bool won_back() {
+    std::vector<bool> rest = released_;
+    for (const shell::Face& t : whole_->topology().faces) {
+      const bool beside = best_.waves.amplitude[t[0]] > 0 || best_.waves.amplitude[t[1]] > 0 ||
+                          best_.waves.amplitude[t[2]] > 0;
+      for (const std::uint32_t v : t) {
+        if (beside && wants_[v]) rest[v] = false;
+      }
+    }
+    return rest != released_ && take(rest);
+  }
+
+  const std::vector<FaceForms>& forms_;
+  const std::vector<bool>& wrinkle_free_;
+  std::vector<bool> clamped_;
+  const FieldOptions& options_;
+  std::vector<bool> released_, wants_;              // one a vertex
+  std::shared_ptr<const Problem> whole_, problem_;  // nothing released; as released now
+  Solution best_;
+  std::vector<SolveStep> trace_;
+  int iterations_ = 0;
+  Clock::time_point begin_ = Clock::now();
+};
+
 }  // namespace
 
 Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped,
                   const FieldOptions& options) {
   const auto begin = Clock::now();
-  auto problem = std::make_unique<Problem>(topology, forms, model, wrinkle_free, clamped);
   Field field;
-  field.real = solve_from_starts(*problem, options);
-  field.released.assign(topology.faces.size(), false);
-  if (const auto dead = dead_vertices(*problem, field.real.waves);
-      !flat(field.real.waves) && std::find(dead.begin(), dead.end(), true) != dead.end()) {
-    std::vector<bool> pinned = dead;
-    for (std::size_t v = 0; v < clamped.size(); ++v) pinned[v] = dead[v] || clamped[v];
-    auto released = std::make_unique<Problem>(topology, forms, model, wrinkle_free, pinned);
-    Solution other = solve_from_starts(*released, options);
-    if (other.energy < field.real.energy) {
-      for (std::size_t f = 0; f < field.released.size(); ++f)
-        field.released[f] = problem->complex().live[f] && !released->complex().live[f];
-      field.real = std::move(other);
-      problem = std::move(released);
-    }
-  }
+  Search search(topology, forms, model, wrinkle_free, clamped, options);
+  search.start(field);
+  search.release();
+  search.finish(field);
   field.solve_s = since(begin);
   const auto phase_begin = Clock::now();
+  const Problem& problem = search.problem();
   SolveOptions fixed = options.solve;
   fixed.fixed_periods = true;
   field.whole = field.real.waves.period.size() == 0
                     ? field.real
-                    : solve(*problem, with_whole_periods(*problem, field.real.waves), fixed);
-  field.one_form = problem->one_form(field.whole.waves);
-  field.phase = corner_phases(*problem, field.whole.waves);
-  field.phase_residual = phase_residual(*problem, field.real.waves, field.whole.waves);
-  field.waves = wave_count(*problem, field.whole.waves);
+                    : solve(problem, with_whole_periods(problem, field.real.waves), fixed);
+  field.one_form = problem.one_form(field.whole.waves);
+  field.phase = corner_phases(problem, field.whole.waves);
+  field.phase_residual = phase_residual(problem, field.real.waves, field.whole.waves);
+  field.count =
+      count_waves(topology, forms, problem.complex().live, field.whole.waves.amplitude, field.one_form);
+  field.waves = field.count.waves;
   field.phase_s = since(phase_begin);
   return field;
 }

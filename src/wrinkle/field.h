@@ -1,4 +1,4 @@
-// From a problem to a wrinkle field: start, solve, release, whole periods, solve again (Chen et al. 2021,
+// From a problem to a wrinkle field: starts, solve, release, whole periods, solve again (Chen et al. 2021,
 // section 5).
 #pragma once
 
@@ -7,12 +7,22 @@
 
 #include "wrinkle/periods.h"
 #include "wrinkle/solve.h"
+#include "wrinkle/wave_count.h"
 
 namespace plisse::wrinkle {
 
 struct FieldOptions {
   SolveOptions solve;
-  double frequency = 1;  // of the start, see initial_waves
+  double frequency = 1;     // of the start, see initial_waves
+  bool all_starts = false;  // also from ½, 1/√2, √2 and 2 times that; patch by patch the lowest is taken
+};
+
+// Where the solver came to from a start.
+struct FieldStart {
+  double frequency = 1;
+  double start_energy = 0, energy = 0;  // J, as Solution's
+  int iterations = 0;
+  bool converged = false;
 };
 
 struct Field {
@@ -21,13 +31,17 @@ struct Field {
   Eigen::VectorXd one_form;                  // ω, radians, one an edge
   std::vector<std::array<double, 3>> phase;  // φ, radians, one a corner of every face
   std::vector<bool> released;                // faces that stopped having to close because a = 0 on them
-  double phase_residual = 0, waves = 0;      // see periods.h
-  double solve_s = 0, phase_s = 0;           // seconds
+  std::vector<FieldStart> starts;            // before any release
+  std::vector<SolveStep> trace;              // over all solves with real periods, the lowest energy so far
+  double phase_residual = 0, waves = 0;      // see periods.h; waves = count.waves
+  WaveCount count;
+  double solve_s = 0, phase_s = 0;  // seconds
 };
 
 // Faces whose corners all come out without amplitude are released, as section 5.1 would have it, if that
-// lowers the energy. Where a start ends with no waves at all though faces are compressed, it is tried again
-// with other frequencies: a = 0 is stationary whatever the phase.
+// lowers the energy: first all, then those alone that waves have to go round; what is compressed of them is
+// won back, as long as that lowers the energy. Dead faces that want waves are given some, too: a = 0 is
+// stationary whatever the phase.
 Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped = {},
                   const FieldOptions& options = {});

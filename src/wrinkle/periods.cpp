@@ -5,7 +5,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace plisse::wrinkle {
@@ -25,7 +24,7 @@ Reduced reduced_hessian(const Problem& problem, const VectorXd& x) {
   const Index begin = problem.period_begin(), count = problem.size() - begin;
   Eigen::SparseMatrix<double> lower = problem.pattern();
   VectorXd first;
-  problem.hessian(x, first, lower, Problem::Hessian::projected);
+  problem.hessian(x, first, lower, 1);
   MatrixXd columns(problem.size(), count);
   for (Index k = 0; k < count; ++k)
     columns.col(k) = lower.selfadjointView<Eigen::Lower>() * VectorXd::Unit(problem.size(), begin + k);
@@ -118,22 +117,6 @@ std::vector<std::array<double, 3>> corner_phases(const Problem& problem, const W
       result[f][c] = whole.phase[complex.phase_vertex[f][0]] + phase[static_cast<Index>(c)];
   }
   return result;
-}
-
-double wave_count(const Problem& problem, const Waves& waves) {
-  if (waves.period.size() > 0) return std::round(waves.period.cwiseAbs().maxCoeff() / turn);
-  const double least = 0.01 * waves.amplitude.maxCoeff();
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t f = 0; f < problem.forms().size(); ++f) {
-    if (!problem.complex().live[f]) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!(waves.amplitude[problem.topology().faces[f][c]] > least)) continue;
-      const double phase = waves.phase[problem.complex().phase_vertex[f][c]];
-      low = std::min(low, phase);
-      high = std::max(high, phase);
-    }
-  }
-  return high > low ? (high - low) / turn : 0;
 }
 
 }  // namespace plisse::wrinkle

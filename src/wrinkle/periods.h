@@ -21,8 +21,4 @@ double phase_residual(const Problem& problem, const Waves& real, const Waves& wh
 // is not 0. 0 on faces that are not live. Needs whole periods.
 std::vector<std::array<double, 3>> corner_phases(const Problem& problem, const Waves& whole);
 
-// How many waves: the largest whole number round a loop; where there is none, the turns between the lowest
-// and the highest phase of vertices whose amplitude is above a hundredth of the largest.
-double wave_count(const Problem& problem, const Waves& waves);
-
 }  // namespace plisse::wrinkle

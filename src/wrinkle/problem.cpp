@@ -3,8 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "wrinkle/start.h"
+#include "wrinkle/local_waves.h"
+#include "wrinkle/patches.h"
 
 namespace plisse::wrinkle {
 namespace {
@@ -43,13 +45,14 @@ std::vector<bool> live_faces(const shell::Topology& topology, const std::vector<
   return live;
 }
 
-// The nearest positive semidefinite matrix in the units that `scale` (per row) gives.
-void project(LocalMatrix& matrix, const LocalVector& scale) {
+// Takes so much of the negative eigenvalues away, in the units that `scale` (per row) gives.
+void lift(LocalMatrix& matrix, const LocalVector& scale, double share) {
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   // Most are positive already, which a Cholesky factorisation tells at a tenth of the price.
   if (Eigen::LLT<LocalMatrix>(matrix).info() != Eigen::Success) {
     const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(matrix);
-    matrix = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+    matrix = eigen.eigenvectors() *
+             (eigen.eigenvalues() - share * eigen.eigenvalues().cwiseMin(0)).asDiagonal() *
              eigen.eigenvectors().transpose();
   }
   const LocalVector back = scale.cwiseInverse();
@@ -80,6 +83,18 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
   }
   frequency_scale_ = frequency > 0 ? frequency : 1;
   amplitude_scale_ = amplitude > 0 ? amplitude : model_.material.thickness;
+  upper_ = VectorXd::Zero(amplitude_count_);
+  for (const auto& patch : patches(topology_, complex_.live)) {
+    double strongest = 0;
+    for (const std::uint32_t f : patch) strongest = std::max(strongest, own[f].compression);
+    const double longest = PatchGraph(topology_, forms_, patch).diameter() / (2 * std::numbers::pi),
+                 most = std::max(std::sqrt(2 * strongest) * longest, model_.material.thickness) /
+                        amplitude_scale_;
+    for (const std::uint32_t f : patch) {
+      for (const std::uint32_t v : topology_.faces[f])
+        if (const Index i = amplitude_unknown_[v]; i >= 0) upper_[i] = std::max(upper_[i], most);
+    }
+  }
 
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {
@@ -151,6 +166,19 @@ Waves Problem::unpack(const VectorXd& x) const {
   return waves;
 }
 
+void Problem::copy_patch(const std::vector<std::uint32_t>& faces, const Waves& from, Waves& to,
+                         double height) const {
+  for (const std::uint32_t f : faces) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = topology_.faces[f][c];
+      const int p = complex_.phase_vertex[f][c];
+      to.amplitude[v] = height * from.amplitude[v];
+      to.phase[p] = from.phase[p];
+    }
+    for (const auto& jump : complex_.jumps[f]) to.period[jump.period] = from.period[jump.period];
+  }
+}
+
 LocalVector Problem::local(const Face& face, const VectorXd& x) const {
   LocalVector result;
   for (Index i = 0; i < 3; ++i) {
@@ -178,6 +206,12 @@ double Problem::energy(const VectorXd& x) const {
   return sum;
 }
 
+VectorXd Problem::face_energies(const VectorXd& x) const {
+  VectorXd result = VectorXd::Zero(static_cast<Index>(forms_.size()));
+  for (const Face& face : faces_) result[face.face] = face.energy.value(local(face, x));
+  return result;
+}
+
 double Problem::gradient(const VectorXd& x, VectorXd& first) const {
   first = VectorXd::Zero(size_);
   double sum = 0;
@@ -190,7 +224,7 @@ double Problem::gradient(const VectorXd& x, VectorXd& first) const {
 }
 
 double Problem::hessian(const VectorXd& x, VectorXd& first, Eigen::SparseMatrix<double>& second,
-                        Hessian kind) const {
+                        double lifted) const {
   first = VectorXd::Zero(size_);
   std::fill_n(second.valuePtr(), second.nonZeros(), 0.0);
   double sum = 0;
@@ -198,15 +232,26 @@ double Problem::hessian(const VectorXd& x, VectorXd& first, Eigen::SparseMatrix<
   scale << amplitude_scale_, amplitude_scale_, amplitude_scale_, frequency_scale_, frequency_scale_;
   LocalMatrix hessian;
   Eigen::MatrixXd map, part;
+  Eigen::Matrix<double, 5, 6> small_map;
+  Eigen::Matrix<double, 6, 6> small_part;
   for (const Face& face : faces_) {
     sum += face.energy.hessian(local(face, x), gradient, hessian);
     add_gradient(face, gradient, first);
-    if (kind == Hessian::projected) project(hessian, scale);
+    if (lifted > 0) lift(hessian, scale, lifted);
     const auto count = static_cast<Index>(face.unknown.size());
-    map.setZero(5, count);
-    for (Index i = 0; i < 3; ++i) map(i, i) = amplitude_scale_;
-    map.bottomRightCorner(2, count - 3) = face.phase;
-    part.noalias() = map.transpose() * (hessian * map);
+    const auto mapped = [&](auto& to_local, auto& mapped_hessian) {
+      to_local.setZero(5, count);
+      for (Index i = 0; i < 3; ++i) to_local(i, i) = amplitude_scale_;
+      to_local.bottomRightCorner(2, count - 3) = face.phase;
+      mapped_hessian.noalias() = to_local.transpose() * (hessian * to_local).eval();
+    };
+    // Most faces have no jump, and small matrices of fixed size cost a third.
+    if (count == 6) {
+      mapped(small_map, small_part);
+      part = small_part;
+    } else {
+      mapped(map, part);
+    }
     std::size_t slot = 0;
     for (Index i = 0; i < count; ++i) {
       for (Index j = 0; j <= i; ++j, ++slot) {

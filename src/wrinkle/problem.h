@@ -37,6 +37,11 @@ class Problem {
   double amplitude_scale() const { return amplitude_scale_; }
   double frequency_scale() const { return frequency_scale_; }
 
+  // Largest amplitudes, in the scale, one a free amplitude: √(2s₀)/|ω| of the patch's strongest compression
+  // and of one wave over the patch's diameter. Longer waves than that are the base surface's own shape; where
+  // nothing else says how long they are (flat, free all round), the energy alone has no minimum.
+  const Eigen::VectorXd& upper() const { return upper_; }
+
   // Unknowns in one vector, all dimensionless: free amplitudes over the scale, phases, periods.
   Eigen::Index size() const { return size_; }
   Eigen::Index amplitude_count() const { return amplitude_count_; }
@@ -47,17 +52,22 @@ class Problem {
   Eigen::VectorXd pack(const Waves& waves) const;
   Waves unpack(const Eigen::VectorXd& x) const;
 
+  // What belongs to a set of faces that hangs together by edges (patches.h), amplitudes times `height`.
+  void copy_patch(const std::vector<std::uint32_t>& faces, const Waves& from, Waves& to,
+                  double height = 1) const;
+
   // Joules, over live faces, above their relaxed energy and without the base surface's own bending.
   double energy(const Eigen::VectorXd& x) const;
+  // The parts of it, one a face; 0 where none is.
+  Eigen::VectorXd face_energies(const Eigen::VectorXd& x) const;
   // J: the relaxed energy of the live faces, and all that faces have whose corners are pinned without being
   // wrinkle-free.
   double relaxed_energy() const { return relaxed_energy_; }
   double gradient(const Eigen::VectorXd& x, Eigen::VectorXd& first) const;
-  // The lower half, of a pattern that never changes: exact, or with every face's part projected to the
-  // nearest positive semidefinite one.
-  enum class Hessian { exact, projected };
+  // The lower half, of a pattern that never changes. `lifted`: how much of every face's negative eigenvalues
+  // is taken away; 0: exact, 1: each face's part is the nearest positive semidefinite one.
   double hessian(const Eigen::VectorXd& x, Eigen::VectorXd& first, Eigen::SparseMatrix<double>& second,
-                 Hessian kind) const;
+                 double lifted) const;
   // The pattern, zeros filled in.
   const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
@@ -89,6 +99,7 @@ class Problem {
   Eigen::Index amplitude_count_ = 0, size_ = 0;
   double relaxed_energy_ = 0;
   double amplitude_scale_ = 1, frequency_scale_ = 1;
+  Eigen::VectorXd upper_;
   std::vector<Face> faces_;
   Eigen::SparseMatrix<double> pattern_;
 };

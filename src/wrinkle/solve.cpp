@@ -5,13 +5,15 @@
 // projected to positive semidefinite ones.
 #include "wrinkle/solve.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "shell/cholesky.h"
 
 namespace plisse::wrinkle {
 namespace {
@@ -21,39 +23,81 @@ using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 
+// Factors the lower half of a symmetric matrix of a fixed pattern, in an order of elimination of its own
+// (minimum degree).
+class Factor {
+ public:
+  explicit Factor(const SparseMatrix<double>& lower) {
+    Eigen::AMDOrdering<int> ordering;
+    ordering(SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()), order_);
+    place_ = order_.inverse();
+    std::vector<Eigen::Triplet<double>> entries;
+    double number = 0;
+    for (Index column = 0; column < lower.cols(); ++column) {
+      for (SparseMatrix<double>::InnerIterator it(lower, column); it; ++it) {
+        const int r = place_.indices()[it.row()], c = place_.indices()[column];
+        entries.emplace_back(std::max(r, c), std::min(r, c), number++);
+      }
+    }
+    ordered_.resize(lower.rows(), lower.cols());
+    ordered_.setFromTriplets(entries.begin(), entries.end());
+    for (Index i = 0; i < ordered_.nonZeros(); ++i)
+      from_.push_back(static_cast<Index>(ordered_.valuePtr()[i]));
+    cholesky_.analyse(ordered_);
+  }
+  // False where it is not positive definite.
+  bool operator()(const SparseMatrix<double>& lower) {
+    for (std::size_t i = 0; i < from_.size(); ++i) ordered_.valuePtr()[i] = lower.valuePtr()[from_[i]];
+    return cholesky_.factorise(ordered_);
+  }
+  VectorXd solve(const VectorXd& right) const { return order_ * cholesky_.solve(place_ * right); }
+
+ private:
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_, place_;
+  std::vector<Index> from_;  // of each number of `ordered_`: its place in the matrix
+  SparseMatrix<double> ordered_;
+  shell::Cholesky cholesky_;
+};
+
+// From the exact Hessian to one that is positive definite whatever the state, and on to short steps down the
+// gradient. The search takes the boldest that works: bolder by one after a whole step, more cautious after
+// none.
+struct Caution {
+  double lifted;   // see Problem::hessian
+  double damping;  // added to the diagonal, in its mean
+};
+constexpr std::array<Caution, 9> cautions{
+    {{0, 1e-12}, {0.03, 1e-10}, {0.2, 1e-9}, {1, 1e-9}, {1, 1e-7}, {1, 1e-5}, {1, 1e-3}, {1, 1e-1}, {1, 10}}};
+
 class Newton {
  public:
-  Newton(const Problem& problem, const SolveOptions& options)
-      : problem_(problem), options_(options), matrix_(problem.pattern()) {
-    factor_.analyzePattern(matrix_);
-  }
+  explicit Newton(const Problem& problem) : problem_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
 
-  // −H⁻¹ g on the unknowns that move; whether the Hessian was positive definite.
-  bool direction(const VectorXd& x, const std::vector<bool>& held, Problem::Hessian kind, double damping,
-                 VectorXd& step) {
+  // −H⁻¹ g on the unknowns that move; false where the Hessian is not positive definite.
+  bool direction(const VectorXd& x, const std::vector<bool>& held, const Caution& caution, VectorXd& step) {
     VectorXd first;
-    problem_.hessian(x, first, matrix_, kind);
+    problem_.hessian(x, first, matrix_, caution.lifted);
     const double mean = matrix_.diagonal().cwiseAbs().mean();
     hold(matrix_, held, mean > 0 ? mean : 1);
     // A phase where there is no amplitude is free, and one of every component is: neither has a gradient.
-    for (Index i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) += damping * mean;
-    factor_.factorize(matrix_);
-    if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0)) return false;
+    for (Index i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) += caution.damping * mean;
+    if (!factor_(matrix_)) return false;
     for (Index i = 0; i < first.size(); ++i) {
       if (held[static_cast<std::size_t>(i)]) first[i] = 0;
     }
     step = -factor_.solve(first);
     for (Index i = 0; i < problem_.amplitude_count(); ++i) {
-      if (held[static_cast<std::size_t>(i)]) step[i] = -x[i];  // what is close to its bound goes there
+      // What is close to a bound goes there.
+      if (held[static_cast<std::size_t>(i)])
+        step[i] = x[i] < problem_.upper()[i] / 2 ? -x[i] : problem_.upper()[i] - x[i];
     }
     return step.allFinite();
   }
 
  private:
   const Problem& problem_;
-  SolveOptions options_;
   SparseMatrix<double> matrix_;
-  Eigen::SimplicialLDLT<SparseMatrix<double>> factor_;
+  Factor factor_;
 };
 
 }  // namespace
@@ -76,8 +120,9 @@ double kkt_residual(const Problem& problem, const VectorXd& x, double energy, co
   const double largest = amplitudes > 0 ? x.head(amplitudes).maxCoeff() : 0;
   double residual = 0;
   for (Index i = 0; i < amplitudes; ++i) {
-    const double g = x[i] > 0 ? std::abs(first[i]) : std::max(-first[i], 0.0);
-    residual = std::max(residual, g * (largest > 0 ? largest : 1));
+    const bool low = x[i] <= 0, high = x[i] >= problem.upper()[i];
+    if ((low && first[i] > 0) || (high && first[i] < 0)) continue;
+    residual = std::max(residual, std::abs(first[i]) * (largest > 0 ? largest : 1));
   }
   for (Index i = amplitudes; i < (fixed_periods ? problem.period_begin() : problem.size()); ++i)
     residual = std::max(residual, std::abs(first[i]));
@@ -89,24 +134,26 @@ Solution solve(const Problem& problem, const Waves& start, const SolveOptions& o
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   const Index amplitudes = problem.amplitude_count();
   const auto bounded = [&](VectorXd x) {
-    x.head(amplitudes) = x.head(amplitudes).cwiseMax(0);
+    x.head(amplitudes) = x.head(amplitudes).cwiseMax(0).cwiseMin(problem.upper());
     return x;
   };
-  Newton newton(problem, options);
-  VectorXd x = bounded(problem.pack(start)), first, step, trial_first;
+  Newton newton(problem);
+  VectorXd x = bounded(problem.pack(start)), first, step;
   Solution solution;
   double energy = problem.gradient(x, first);
   solution.start_energy = energy + problem.relaxed_energy();
   solution.trace.push_back({0, seconds(), solution.start_energy});
   std::vector<bool> held(static_cast<std::size_t>(problem.size()), false);
-  bool near = false;  // the exact Hessian has a chance
+  std::size_t level = 3;                                  // of cautions
+  double gain = std::numeric_limits<double>::infinity();  // of the last step
   if (!std::isfinite(energy) || !first.allFinite())
     throw Error(ExitCode::bad_input,
                 "the start's energy is not finite: amplitudes or frequencies are out of all proportion");
   int& iteration = solution.iterations;
   while (true) {
     solution.kkt = kkt_residual(problem, x, energy, first, options.fixed_periods);
-    if (solution.kkt <= options.kkt) {
+    const bool stationary = solution.kkt <= options.kkt;
+    if (solution.kkt == 0 || (stationary && gain <= options.energy * energy)) {
       solution.converged = true;
       solution.reason = "stationary";
       break;
@@ -118,37 +165,40 @@ Solution solve(const Problem& problem, const Waves& start, const SolveOptions& o
     // Bertsekas' ε-active set: close to the bound, and pushed against it.
     const double close = std::min(1e-3, solution.kkt);
     for (Index i = 0; i < problem.size(); ++i) {
-      held[static_cast<std::size_t>(i)] = i < amplitudes
-                                              ? x[i] <= close && first[i] > 0
-                                              : options.fixed_periods && i >= problem.period_begin();
+      held[static_cast<std::size_t>(i)] =
+          i < amplitudes
+              ? (x[i] <= close && first[i] > 0) || (x[i] >= problem.upper()[i] - close && first[i] < 0)
+              : options.fixed_periods && i >= problem.period_begin();
     }
-    if (!(near && newton.direction(x, held, Problem::Hessian::exact, 1e-12, step)) &&
-        !newton.direction(x, held, Problem::Hessian::projected, 1e-9, step)) {
-      solution.reason = "the Hessian cannot be factorised";
-      break;
-    }
-    double length = 1, next = 0;
+    double length = 0, next = 0;
     VectorXd trial;
     bool down = false;
-    for (int halving = 0; halving < 40; ++halving, length /= 2) {
-      trial = bounded(x + length * step);
-      next = problem.energy(trial);
-      // Armijo along the bent line.
-      if (next <= energy + 1e-4 * first.dot(trial - x) && next <= energy) {
-        down = true;
-        break;
+    for (;; ++level) {
+      if (level == cautions.size()) break;
+      if (!newton.direction(x, held, cautions[level], step)) continue;
+      // More cautious rather than much shorter, where there is a choice.
+      const int halvings = level + 1 < cautions.size() ? 4 : 40;
+      length = 1;
+      for (int halving = 0; halving < halvings && !down; ++halving) {
+        trial = bounded(x + length * step);
+        next = problem.energy(trial);
+        // Armijo along the bent line.
+        down = next <= energy + 1e-4 * first.dot(trial - x) && next <= energy;
+        if (!down) length /= 2;
       }
+      if (down) break;
     }
     if (!down) {
-      solution.reason = "no step lowers the energy any more";
+      solution.converged = stationary;
+      solution.reason = stationary ? "stationary" : "no step lowers the energy any more";
       break;
     }
-    const double gain = energy - next;
+    if (length == 1 && level > 0) --level;
+    gain = energy - next;
     ++iteration;
     x = trial;
     energy = problem.gradient(x, first);
     solution.trace.push_back({iteration, seconds(), energy + problem.relaxed_energy()});
-    near = gain < 1e-2 * energy;
   }
   solution.waves = problem.unpack(x);
   solution.energy = energy + problem.relaxed_energy();

@@ -10,7 +10,8 @@ namespace plisse::wrinkle {
 
 struct SolveOptions {
   int max_iterations = 500;
-  double kkt = 1e-6;           // stop where the scaled residual is at most this
+  double kkt = 1e-6;           // stop where the scaled residual is at most this and
+  double energy = 1e-9;        // the last step gained at most this part of the energy above the relaxed one
   bool fixed_periods = false;  // periods stay as they are
 };
 
@@ -33,8 +34,9 @@ struct Solution {
 // The largest of |a_s ∂E/∂a_v|, |∂E/∂φ_i| and |∂E/∂τ_k| over the unknowns that can move, divided by E, the
 // energy above the relaxed one, where
 // a_s is the largest amplitude of the state (the problem's scale where all are 0); of ∂E/∂a_v at a_v = 0
-// only what is negative counts. Dimensionless: E changes by less than this part of itself when the largest
-// wave changes by its own height, or one phase by a radian. `first`: dE by the problem's unknowns.
+// only what is negative counts, at its upper bound only what is positive. Dimensionless: E changes by less
+// than this part of itself when the largest wave changes by its own height, or one phase by a radian.
+// `first`: dE by the problem's unknowns.
 double kkt_residual(const Problem& problem, const Eigen::VectorXd& x, double energy,
                     const Eigen::VectorXd& first, bool fixed_periods = false);
 

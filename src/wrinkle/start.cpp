@@ -5,117 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <tuple>
+
+#include "wrinkle/local_waves.h"
+#include "wrinkle/patches.h"
 
 namespace plisse::wrinkle {
 namespace {
 
+using Eigen::Index;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
-using std::numbers::pi;
+using Eigen::VectorXd;
 
-// Where a crest goes from a face's centre: so far (metres at rest) until it leaves the live faces, and
-// whether amplitudes are 0 there.
-struct CrestEnd {
-  double length = 0;
-  bool pinned = false;
-};
-
-class CrestLines {
- public:
-  CrestLines(const std::vector<FaceForms>& forms, const shell::Topology& topology,
-             const std::vector<bool>& live, const std::vector<bool>& pinned)
-      : forms_(forms), topology_(topology), live_(live), pinned_(pinned) {
-    for (const FaceForms& f : forms) crest_.push_back(principal_strain(f).crest);
-  }
-
-  CrestEnd follow(std::size_t face, double sign) const {
-    Eigen::Vector3d at = Eigen::Vector3d::Constant(1.0 / 3);  // barycentric
-    Vector2d direction = sign * crest_[face];
-    CrestEnd end;
-    // A line that circles would do so for ever.
-    const int most = 20 + 4 * static_cast<int>(std::sqrt(static_cast<double>(forms_.size())));
-    for (int step = 0; step < most; ++step) {
-      const Eigen::Vector3d rate = forms_[face].rest.gradients.transpose() * direction;
-      double time = std::numeric_limits<double>::infinity();
-      int out = 0;
-      for (int i = 0; i < 3; ++i) {
-        if (rate[i] < 0 && at[i] / -rate[i] < time) {
-          time = at[i] / -rate[i];
-          out = i;
-        }
-      }
-      end.length += time;
-      at = (at + time * rate).cwiseMax(0);
-      const auto side = static_cast<std::size_t>(out + 1) % 3;
-      const std::uint32_t next = across(topology_, face, side);
-      const std::uint32_t a = topology_.faces[face][side], b = topology_.faces[face][(side + 1) % 3];
-      if (next == shell::none || !live_[next]) {
-        end.pinned = pinned_[a] && pinned_[b];
-        break;
-      }
-      Eigen::Vector3d entry = Eigen::Vector3d::Zero();
-      int inward = 0;
-      for (int i = 0; i < 3; ++i) {
-        const std::uint32_t v = topology_.faces[next][static_cast<std::size_t>(i)];
-        if (v == a)
-          entry[i] = at[static_cast<int>(side)];
-        else if (v == b)
-          entry[i] = at[static_cast<int>((side + 1) % 3)];
-        else
-          inward = i;
-      }
-      at = entry;
-      face = next;
-      direction = crest_[face];
-      if (forms_[face].rest.gradients.col(inward).dot(direction) < 0) direction = -direction;
-    }
-    return end;
-  }
-
-  // π/L of amplitudes that vanish at both ends of the crest through a face; π/2L at one, 0 at none.
-  double rate(std::size_t face) const {
-    const CrestEnd one = follow(face, 1), other = follow(face, -1);
-    const double ends = (one.pinned ? 0.5 : 0.0) + (other.pinned ? 0.5 : 0.0);
-    return ends * std::numbers::pi / (one.length + other.length);
-  }
-
- private:
-  const std::vector<FaceForms>& forms_;
-  const shell::Topology& topology_;
-  const std::vector<bool>&live_, &pinned_;
-  std::vector<Vector2d> crest_;
-};
-
-// √area of each component of live faces, for its faces.
-std::vector<double> patch_sizes(const std::vector<FaceForms>& forms, const shell::Topology& topology,
-                                const std::vector<bool>& live) {
-  std::vector<double> size(forms.size(), 0);
-  std::vector<std::size_t> patch;
-  for (std::size_t first = 0; first < forms.size(); ++first) {
-    if (!live[first] || size[first] > 0) continue;
-    patch.assign(1, first);
-    size[first] = 1;
-    double area = 0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      area += forms[patch[i]].rest.area;
-      for (std::size_t side = 0; side < 3; ++side) {
-        const std::uint32_t next = across(topology, patch[i], side);
-        if (next == shell::none || !live[next] || size[next] > 0) continue;
-        size[next] = 1;
-        patch.push_back(next);
-      }
-    }
-    for (const std::size_t f : patch) size[f] = std::sqrt(area);
-  }
-  return size;
-}
-
-// Turns gradients so that neighbours agree, surest edges first.
-void comb(std::vector<LocalWaves>& waves, const std::vector<FaceForms>& forms,
-          const shell::Topology& topology, const std::vector<bool>& live) {
+// Turns gradients so that neighbours agree, surest edges first; `known`: one flag a face that stays as it is.
+void comb(std::vector<LocalWaves>& waves, const Problem& problem, const std::vector<bool>& known) {
+  const std::vector<FaceForms>& forms = problem.forms();
+  const shell::Topology& topology = problem.topology();
+  const std::vector<bool>& live = problem.complex().live;
   struct Link {
     double surety;
     std::size_t from, to;
@@ -154,9 +61,7 @@ void comb(std::vector<LocalWaves>& waves, const std::vector<FaceForms>& forms,
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return waves[a].compression > waves[b].compression; });
-  for (const std::size_t seed : order) {
-    if (done[seed]) continue;
-    reach(seed);
+  const auto follow = [&] {
     while (!queue.empty()) {
       const Link link = queue.top();
       queue.pop();
@@ -165,99 +70,192 @@ void comb(std::vector<LocalWaves>& waves, const std::vector<FaceForms>& forms,
       if (link.turn) waves[link.to].gradient *= -1;
       reach(link.to);
     }
+  };
+  done = known;
+  for (const std::size_t f : order) {
+    if (known[f]) reach(f);
+  }
+  follow();
+  for (const std::size_t seed : order) {
+    if (done[seed]) continue;
+    reach(seed);
+    follow();
   }
 }
 
-}  // namespace
+// What the one-form should be on each face, and how much that counts.
+struct Target {
+  std::vector<LocalWaves> local;
+  std::vector<double> weight;
+};
 
-LocalWaves local_waves(const FaceForms& forms, const Model& model, double rate, double least, double factor) {
-  const PrincipalStrain principal = principal_strain(forms);
-  const double nu = model.material.poisson, h = model.material.thickness,
-               tension = std::max(principal.tension, 0.0);
-  LocalWaves result;
-  result.compression = -(principal.compression + nu * tension);
-  const double curvature = principal.crest.dot(forms.second_form * principal.crest);
-  const double stiffness = model.curvature_factor * curvature * curvature + tension / 2 * rate * rate;
-  const double frequency = factor * std::max(std::sqrt(std::sqrt(12 * (1 - nu * nu) * stiffness) / h), least);
-  result.gradient = frequency * principal.wave;
-  const double critical =
-      2 * (1 - nu * nu) * stiffness / (frequency * frequency) + h * h * frequency * frequency / 6;
-  result.amplitude = std::sqrt(2 * std::max(result.compression - critical, 0.0)) / frequency;
-  return result;
-}
-
-std::vector<LocalWaves> local_waves(const std::vector<FaceForms>& forms, const shell::Topology& topology,
-                                    const std::vector<bool>& live, const std::vector<bool>& pinned,
-                                    const Model& model, double frequency) {
-  const std::vector<double> size = patch_sizes(forms, topology, live);
-  const CrestLines crests(forms, topology, live, pinned);
-  std::vector<LocalWaves> result(forms.size());
-  for (std::size_t f = 0; f < forms.size(); ++f) {
-    if (live[f]) result[f] = local_waves(forms[f], model, crests.rate(f), 2 * pi / size[f], frequency);
-  }
-  return result;
-}
-
-Waves initial_waves(const Problem& problem, double frequency) {
-  const auto& forms = problem.forms();
-  const shell::Topology& topology = problem.topology();
+// min Σ weight |dφ + Στγ − gradient|².
+void fit(const Problem& problem, const Target& target, Waves& waves) {
   const PhaseComplex& complex = problem.complex();
-  const std::vector<bool>& pinned = problem.pinned();
-  std::vector<LocalWaves> local =
-      local_waves(forms, topology, complex.live, pinned, problem.model(), frequency);
-  comb(local, forms, topology, complex.live);
-
-  Waves waves;
-  waves.amplitude = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(pinned.size()));
-  Eigen::VectorXd weight = waves.amplitude;
-  for (std::size_t f = 0; f < forms.size(); ++f) {
-    if (!complex.live[f]) continue;
-    for (const std::uint32_t v : topology.faces[f]) {
-      waves.amplitude[v] += forms[f].rest.area * local[f].amplitude;
-      weight[v] += forms[f].rest.area;
-    }
-  }
-  for (Eigen::Index v = 0; v < weight.size(); ++v) {
-    const bool free = weight[v] > 0 && !pinned[static_cast<std::size_t>(v)];
-    waves.amplitude[v] = free ? waves.amplitude[v] / weight[v] : 0;
-  }
-
-  // min Σ area s₀ |dφ + Στγ − gradient|². Faces without compression still hold the form together.
-  double most = 0;
-  for (const LocalWaves& l : local) most = std::max(most, l.compression);
-  const auto size = static_cast<Eigen::Index>(complex.vertices + complex.periods);
-  waves.phase = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(complex.vertices));
-  waves.period = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(complex.periods));
-  if (size == 0) return waves;
+  const auto size = static_cast<Index>(complex.vertices + complex.periods);
+  waves.phase = VectorXd::Zero(static_cast<Index>(complex.vertices));
+  waves.period = VectorXd::Zero(static_cast<Index>(complex.periods));
+  if (size == 0) return;
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  VectorXd right = VectorXd::Zero(size);
   double trace = 0;
-  for (std::size_t f = 0; f < forms.size(); ++f) {
+  for (std::size_t f = 0; f < target.local.size(); ++f) {
     if (!complex.live[f]) continue;
-    const double w = forms[f].rest.area * (most > 0 ? std::max(local[f].compression / most, 1e-3) : 1);
-    std::vector<std::pair<Eigen::Index, Vector2d>> terms;
-    for (Eigen::Index c = 0; c < 3; ++c)
-      terms.emplace_back(complex.phase_vertex[f][static_cast<std::size_t>(c)],
-                         forms[f].rest.gradients.col(c));
+    const double w = target.weight[f];
+    const auto& gradients = problem.forms()[f].rest.gradients;
+    std::vector<std::pair<Index, Vector2d>> terms;
+    for (Index c = 0; c < 3; ++c)
+      terms.emplace_back(complex.phase_vertex[f][static_cast<std::size_t>(c)], gradients.col(c));
     for (const auto& jump : complex.jumps[f])
-      terms.emplace_back(static_cast<Eigen::Index>(complex.vertices + jump.period),
-                         forms[f].rest.gradients * jump.corners);
+      terms.emplace_back(static_cast<Index>(complex.vertices + jump.period), gradients * jump.corners);
     for (const auto& [i, x] : terms) {
-      right[i] += w * x.dot(local[f].gradient);
+      right[i] += w * x.dot(target.local[f].gradient);
       for (const auto& [j, y] : terms) entries.emplace_back(i, j, w * x.dot(y));
       trace += w * x.squaredNorm();
     }
   }
   // One phase of every component is free: a trace of the identity picks the smallest solution.
-  for (Eigen::Index i = 0; i < size; ++i)
-    entries.emplace_back(i, i, 1e-12 * trace / static_cast<double>(size));
+  for (Index i = 0; i < size; ++i) entries.emplace_back(i, i, 1e-12 * trace / static_cast<double>(size));
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  const Eigen::VectorXd solution = factor.solve(right);
+  const VectorXd solution = factor.solve(right);
   waves.phase = solution.head(waves.phase.size());
   waves.period = solution.tail(waves.period.size());
-  return waves;
+}
+
+Vector2d gradient_of(const Problem& problem, const Waves& waves, std::size_t face) {
+  return problem.forms()[face].rest.gradients *
+         problem.complex().corner_phases(face, waves.phase, waves.period);
+}
+
+// Of every free vertex, the mean of what suits the faces round it: for the one-form of the state, `frequency`
+// times as dense; or √(2s₀)/|ω| for their own waves, whether they need more compression than there is or not.
+enum class Suits { projected, uncritical };
+VectorXd suiting_amplitudes(const Problem& problem, const std::vector<LocalWaves>& local, const Waves& waves,
+                            Suits suits = Suits::projected, double frequency = 1) {
+  VectorXd amplitude = VectorXd::Zero(static_cast<Index>(problem.pinned().size())), weight = amplitude;
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    if (!problem.complex().live[f]) continue;
+    const double area = problem.forms()[f].rest.area;
+    const double best = suits == Suits::uncritical
+                            ? std::sqrt(2 * std::max(local[f].compression, 0.0)) / local[f].gradient.norm()
+                            : best_amplitude(problem.forms()[f], problem.model(), local[f],
+                                             frequency * gradient_of(problem, waves, f));
+    for (const std::uint32_t v : problem.topology().faces[f]) {
+      amplitude[v] += area * best;
+      weight[v] += area;
+    }
+  }
+  for (Index v = 0; v < weight.size(); ++v) {
+    const bool free = weight[v] > 0 && !problem.pinned()[static_cast<std::size_t>(v)];
+    amplitude[v] = free ? amplitude[v] / weight[v] : 0;
+  }
+  return amplitude;
+}
+
+double sum_over(const std::vector<std::uint32_t>& faces, const VectorXd& of_faces) {
+  double sum = 0;
+  for (const std::uint32_t f : faces) sum += of_faces[f];
+  return sum;
+}
+
+}  // namespace
+
+Waves initial_waves(const Problem& problem, double frequency) {
+  const PhaseComplex& complex = problem.complex();
+  Target target;
+  target.local =
+      local_waves(problem.forms(), problem.topology(), complex.live, problem.pinned(), problem.model());
+  double most = 0;
+  for (LocalWaves& l : target.local) {
+    most = std::max(most, l.compression);
+    l.gradient *= frequency;
+  }
+  comb(target.local, problem, std::vector<bool>(target.local.size(), false));
+  // Faces without compression still hold the form together.
+  for (std::size_t f = 0; f < target.local.size(); ++f)
+    target.weight.push_back(problem.forms()[f].rest.area *
+                            (most > 0 ? std::max(target.local[f].compression / most, 1e-3) : 1));
+  Waves fitted;
+  fit(problem, target, fitted);
+
+  // Closed forms are not as dense as each face would like its waves. Patch by patch: the amplitudes that suit
+  // what they are, all scaled by what is best (the energy is c₀ + c₂t² + c₄t⁴ in the scale t), and if even
+  // that is flat, other frequencies.
+  Waves start = fitted;
+  start.amplitude = VectorXd::Zero(static_cast<Index>(problem.pinned().size()));
+  const VectorXd flat = problem.face_energies(problem.pack(start));
+  const auto faces = patches(problem.topology(), complex.live);
+  std::vector<bool> done(faces.size(), false);
+  std::vector<double> gained(faces.size(), 0);
+  for (const int step : {0, 1, -1, 2, -2, 3, -3, 4, -4, 6, -6, 8, -8}) {
+    if (std::find(done.begin(), done.end(), false) == done.end()) break;
+    const double factor = std::exp2(step / 4.0);
+    Waves trial{suiting_amplitudes(problem, target.local, fitted, Suits::projected, factor),
+                factor * fitted.phase, factor * fitted.period};
+    const VectorXd once = problem.face_energies(problem.pack(trial)) - flat;
+    trial.amplitude *= 2;
+    const VectorXd twice = problem.face_energies(problem.pack(trial)) - flat;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (done[i]) continue;
+      const double e1 = sum_over(faces[i], once), e2 = sum_over(faces[i], twice), c4 = (e2 - 4 * e1) / 12,
+                   c2 = e1 - c4;
+      if (!(c2 < 0) || !(c4 > 0) || !(c2 * c2 / (4 * c4) > gained[i])) continue;
+      gained[i] = c2 * c2 / (4 * c4);
+      problem.copy_patch(faces[i], trial, start, std::sqrt(-c2 / (2 * c4)) / 2);
+      done[i] = step == 0;
+    }
+    if (step == 0) {  // a patch that nothing compresses stays flat
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        done[i] = done[i] || std::none_of(faces[i].begin(), faces[i].end(),
+                                          [&](std::uint32_t f) { return target.local[f].compression > 0; });
+    }
+  }
+  // Amplitudes of one height are not the shape that a patch compressed but here and there would have: begin
+  // above, and let the solver find out.
+  fitted.amplitude = suiting_amplitudes(problem, target.local, fitted, Suits::uncritical);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (!done[i] && gained[i] == 0) problem.copy_patch(faces[i], fitted, start);
+  return start;
+}
+
+Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves) {
+  const std::size_t count = to.forms().size();
+  Target target;
+  target.local = local_waves(to.forms(), to.topology(), to.complex().live, to.pinned(), to.model());
+  const double most = waves.amplitude.size() > 0 ? waves.amplitude.maxCoeff() : 0;
+  std::vector<bool> known(count, false);
+  for (std::size_t f = 0; f < count; ++f) {
+    const shell::Face& t = to.topology().faces[f];
+    const double mean = (waves.amplitude[t[0]] + waves.amplitude[t[1]] + waves.amplitude[t[2]]) / 3;
+    known[f] = to.complex().live[f] && from.complex().live[f] && mean > 0;
+    if (known[f]) target.local[f].gradient = gradient_of(from, waves, f);
+    // What there is stays, the more the higher it is; the rest follows as far as it likes to.
+    target.weight.push_back(to.forms()[f].rest.area * ((known[f] ? mean * mean / (most * most) : 0) + 1e-3));
+  }
+  comb(target.local, to, known);
+  Waves result;
+  fit(to, target, result);
+  result.amplitude = suiting_amplitudes(to, target.local, result);
+  const VectorXd fresh = result.amplitude;
+  VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double height : {0.0, 0.1, 0.25, 0.5, 1.0}) {
+    for (Index v = 0; v < fresh.size(); ++v) {
+      const bool free = !to.pinned()[static_cast<std::size_t>(v)];
+      result.amplitude[v] = free && waves.amplitude[v] == 0 ? height * fresh[v]
+                            : free                          ? waves.amplitude[v]
+                                                            : 0;
+    }
+    const double energy = to.energy(to.pack(result));
+    // Not flat again, even if that were less: the solver would stay there.
+    if (height > 0 && !(energy < least)) continue;
+    if (height > 0) least = energy;
+    best = result.amplitude;
+  }
+  result.amplitude = best;
+  return result;
 }
 
 }  // namespace plisse::wrinkle

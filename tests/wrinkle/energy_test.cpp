@@ -64,7 +64,8 @@ double integral(double area, Function&& f) {
 }
 
 TEST(WrinkleEnergy, IsThePapersSumOfTerms) {
-  const Model model = test::model(1e7, 0.3, 1e-3);
+  Model model = test::model(1e7, 0.3, 1e-3);
+  model.crest_compression = true;  // (21) as it stands
   const double h = model.material.thickness;
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Case c = random_case(seed);
@@ -100,6 +101,7 @@ TEST(WrinkleEnergy, AblationsAreMeansOverAPeriod) {
     c.x.tail<2>() = p;
     const Matrix2d ppt = p * p.transpose();
     Model model = test::model(1e7, 0.3, h);
+    model.crest_compression = true;
     const auto mean = [&](const Vector2d& v1, double v2) {  // v₂ = v2 dφ; I_b ≈ I_u in the corrections
       double sum = 0;
       const int count = 16;  // trigonometric polynomials of degree 4: exact from 5 on
@@ -130,6 +132,23 @@ TEST(WrinkleEnergy, AblationsAreMeansOverAPeriod) {
     EXPECT_NEAR(whole(FaceEnergy(c.forms, model), c.x) / f(best.x(), best.y()), 1,
                 1e-9);  // differences cancel
   }
+}
+
+// Compressed both ways, waves of one direction can take all of it up that counts.
+TEST(WrinkleEnergy, CompressionAlongTheCrestsCostsNothing) {
+  Case c = random_case(1);
+  c.forms.strain << -0.02, 0.01, 0.01, -0.05;
+  c.forms.second_form.setZero();
+  const PrincipalStrain principal = principal_strain(c.forms);
+  ASSERT_LT(principal.tension, 0);
+  Model model = test::model(1e7, 0.3, 1e-9);  // and hardly bends
+  const double a = 1e-3;
+  c.x << a, a, a, std::sqrt(-2 * principal.compression) / a * principal.wave;
+  const double flat = FaceEnergy(c.forms, model).value(LocalVector::Zero());
+  // What is left is bending and W²_b, by (h|ω|)² less.
+  EXPECT_NEAR(whole(FaceEnergy(c.forms, model), c.x) / flat, 0, 1e-6);
+  model.crest_compression = true;
+  EXPECT_GT(whole(FaceEnergy(c.forms, model), c.x) / flat, 0.01);
 }
 
 TEST(WrinkleEnergy, DerivativesAreThoseOfDifferences) {

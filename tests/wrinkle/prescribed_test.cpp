@@ -72,7 +72,6 @@ TEST(PrescribedField, CylinderBelowItsCriticalStrainStaysSmooth) {
                             [](const Vector3d&) { return diagonal(1 / radius, 0); }),
                         cylinder_model, std::vector<bool>(grid.faces.size(), false));
   Waves start = initial_waves(problem);
-  EXPECT_EQ(start.amplitude.maxCoeff(), 0);
   start.amplitude.setConstant(1e-3);
   const Solution solution = solve(problem, start);
   EXPECT_TRUE(solution.converged) << solution.reason;
