@@ -100,7 +100,29 @@ std::vector<Chunk> chunks_of(std::span<const std::uint8_t> file) {
   return chunks;
 }
 
+// What follows IHDR in every file of ours, up to where the hash goes.
+std::vector<std::uint8_t> after_ihdr() {
+  std::vector<std::uint8_t> out;
+  append_chunk(out, "sRGB", std::string_view("\0", 1));  // rendering intent 0, perceptual
+  append_chunk(out, "tEXt", text_chunk("Software", fmt::format("plisse {}", version)));
+  return out;
+}
+
+constexpr std::size_t header_end = signature.size() + chunk_frame + ihdr_data;
+
 }  // namespace
+
+std::vector<std::uint8_t> with_hash(const std::vector<std::uint8_t>& png, const std::string& hash) {
+  std::vector<std::uint8_t> chunk;
+  append_chunk(chunk, "tEXt", text_chunk(hash_key, hash));
+  const auto place = png.begin() + static_cast<std::ptrdiff_t>(header_end + after_ihdr().size());
+  std::vector<std::uint8_t> out;
+  out.reserve(png.size() + chunk.size());
+  out.assign(png.begin(), place);
+  out.insert(out.end(), chunk.begin(), chunk.end());
+  out.insert(out.end(), place, png.end());
+  return out;
+}
 
 std::vector<std::uint8_t> encode_png(const Image& image, const PngOptions& options) {
   check(image, options);
@@ -110,14 +132,13 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngOptions& optio
   if (!plain.bytes) throw std::bad_alloc();
 
   const std::uint8_t* begin = plain.bytes.get();
-  const std::uint8_t* after_header = begin + signature.size() + chunk_frame + ihdr_data;
+  const std::vector<std::uint8_t> ours = after_ihdr();
   std::vector<std::uint8_t> out;
-  out.reserve(plain.size + 256);
-  out.assign(begin, after_header);
-  append_chunk(out, "sRGB", std::string_view("\0", 1));  // rendering intent 0, perceptual
-  append_chunk(out, "tEXt", text_chunk("Software", fmt::format("plisse {}", version)));
-  if (!options.hash.empty()) append_chunk(out, "tEXt", text_chunk(hash_key, options.hash));
-  out.insert(out.end(), after_header, begin + plain.size);
+  out.reserve(plain.size + ours.size());
+  out.assign(begin, begin + header_end);
+  out.insert(out.end(), ours.begin(), ours.end());
+  out.insert(out.end(), begin + header_end, begin + plain.size);
+  if (!options.hash.empty()) return with_hash(out, options.hash);
   return out;
 }
 
