@@ -9,7 +9,7 @@ layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
 layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
 layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
 layout(std430, binding = 3) writeonly buffer Phases { vec2 phases_out[]; };
-layout(std430, binding = 4) buffer Counter { uint fresh_count; };
+layout(std430, binding = 4) buffer Counter { uint fresh_count, all_idle; };
 uniform uint vertex_count;
 uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
@@ -83,6 +83,7 @@ void main() {
         if (status != idle && !(can_wave && s >= 0.5 * dead_zone)) status = idle;
         else if (status == idle && can_wave && s > dead_zone) status = fresh;
         if (status == fresh) atomicAdd(fresh_count, 1u);
+        if (status != idle) all_idle = 0u;
     }
 
     states_out[v] = vec4(k, s, g);

@@ -24,6 +24,12 @@ RelaxPass::RelaxPass(const std::string& shader_folder)
       finish_(program("FINISH", shader_folder)),
       lead_(program("LEAD", shader_folder)) {}
 
+bool RelaxPass::idle(const SurfaceBuffers& surface) {
+  std::uint32_t idle = 0;
+  surface.counter.read(&idle, sizeof idle, sizeof idle);
+  return idle != 0;
+}
+
 void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
   bind(surface);
   fresh_ = 0;

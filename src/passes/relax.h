@@ -22,6 +22,8 @@ class RelaxPass {
   explicit RelaxPass(const std::string& shader_folder);
   // Reads positions, world_waves and surface.counter (the fresh vertices); advances phases.
   void run(SurfaceBuffers& surface, const RelaxOptions& options);
+  // Whether crush found no vertex that waves: run would change nothing.
+  static bool idle(const SurfaceBuffers& surface);
   // Moves the phases of set vertices by a fraction of their distance to those of another moment (its phases
   // and states), with which a loop closes.
   void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction);

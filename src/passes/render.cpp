@@ -74,19 +74,27 @@ bool is_sinusoid(const Profile& profile) {
   return true;
 }
 
-// Holds all that the surface draws, lines on its edges included; the whole picture where a point is beside or
-// behind the eye.
+// Holds all that the surface draws, lines on its edges included: nothing where it is all on the other side of
+// one of the four planes through the eye, or behind it; the whole picture where only a part is behind.
 gpu::Rectangle covered(const std::vector<glm::vec4>& positions, const glm::dmat4& view_projection, int width,
                        int height) {
   constexpr double margin = 2;  // pixels: half a line's width, and single precision on the GPU
   glm::dvec2 low(INFINITY), high(-INFINITY);
+  const glm::dvec2 edge = 1.0 + 2 * margin / glm::dvec2(width, height);
+  std::array<bool, 5> all_beyond{true, true, true, true, true};
+  bool part_behind = false;
   for (const glm::vec4& x : positions) {
     const glm::dvec4 clip = view_projection * glm::dvec4(glm::dvec3(x), 1);
+    const bool beyond[5] = {clip.x<-edge.x * clip.w, clip.x> edge.x * clip.w,
+                            clip.y<-edge.y * clip.w, clip.y> edge.y * clip.w, clip.w < 0};
+    for (std::size_t i = 0; i < 5; ++i) all_beyond[i] = all_beyond[i] && beyond[i];
     const glm::dvec2 place = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(width, height);
-    if (!(clip.w > 0) || !std::isfinite(place.x + place.y)) return {0, 0, width, height};
+    part_behind = part_behind || !(clip.w > 0) || !std::isfinite(place.x + place.y);
     low = glm::min(low, place);
     high = glm::max(high, place);
   }
+  if (std::ranges::count(all_beyond, true) > 0) return {};
+  if (part_behind) return {0, 0, width, height};
   const glm::dvec2 size(width, height);
   const glm::ivec2 first(glm::clamp(glm::floor(low - margin), glm::dvec2(0), size));
   const glm::ivec2 end(glm::clamp(glm::ceil(high + margin), glm::dvec2(0), size));
@@ -360,15 +368,20 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   draw(surface, view, target, {0, 0, target.width(), target.height()});
 }
 
-void RenderPass::draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+bool RenderPass::draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                                bool software) {
   gpu::Rectangle area{0, 0, target.width(), target.height()};
-  if (software && target.samples() > 1) {
+  const gpu::Rectangle whole = area;
+  bool in_view = true;
+  if (software) {
     area =
         covered(surface.positions.read<glm::vec4>(), view.view_projection, target.width(), target.height());
+    in_view = !area.empty();
+    if (in_view && target.samples() == 1) area = whole;
   }
   draw(surface, view, target, area);
   target.resolve(area);
+  return in_view;
 }
 
 void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
@@ -385,6 +398,7 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
     clear(false);
     if (backdrop) draw_backdrop(view);
   }
+  if (area.empty()) return;
   target.bind();
   clear(true);
   glEnable(GL_SCISSOR_TEST);

@@ -71,8 +71,9 @@ class RenderPass {
   void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
   // The same, resolved. A software renderer pays for every multisampled pixel: there (`software`) the
   // backdrop is drawn with one sample, and with four only the rectangle that the surface covers. The picture
-  // is the same but for rare roundings of the backdrop to the next of 255 steps.
-  void draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+  // is the same but for rare roundings of the backdrop to the next of 255 steps. False where it was found
+  // that nothing of the surface is in view: then only what is behind it, and its shadow, was drawn.
+  bool draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                      bool software);
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);

@@ -159,7 +159,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
     return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));
-  counter = gpu::Buffer(sizeof(std::uint32_t));
+  counter = gpu::Buffer(2 * sizeof(std::uint32_t));
 }
 
 SurfaceBuffers::SurfaceBuffers(const Surface& surface, const Subdivision& fine)

@@ -35,7 +35,8 @@ struct SurfaceBuffers {
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).
   gpu::Buffer states, waves, phases;
-  // Work space of relax.
+  // Work space of relax: the phases of the round before; how many vertices are fresh, and whether all are
+  // idle.
   gpu::Buffer phases_next, counter;
 
   // For shaders/common/surface.glsl to fetch from. `phases` alone where relax has swapped them.
