@@ -15,6 +15,7 @@
 #include "gpu/context.h"
 #include "io/import.h"
 #include "mesh/measure_waves.h"
+#include "pipeline/effort.h"
 #include "scene/animation.h"
 
 namespace plisse {
@@ -30,6 +31,8 @@ struct RenderRequest {
   bool displace = false;          // the waves as geometry in place of shading
   std::optional<int> levels;      // with displace: how often edges are halved; none: as the waves need it
   std::vector<std::string> aovs;  // height, normal, amplitude, phase, direction, tension, depth
+  double budget_ms = 0;           // from pose to picture in memory; 0: none
+  double max_error = 0;           // that another round of relaxation may leave, radians; 0: none
   int device = -1;                // −1: first that works
   std::string shader_folder;      // overrides the embedded shaders; empty: none
 };
@@ -40,6 +43,9 @@ struct FrameReport {
   std::string path;
   std::map<std::string, double> ms;  // skin, crush, relax, render, readback, encode, write
   bool skipped = false;
+  std::vector<std::string>
+      left_out;  // keys of RenderReport::skipped that this frame, or steps on the way to it, added to
+  std::optional<Effort> effort;    // with a budget
   std::string error;               // empty: rendered
   ExitCode code = ExitCode::fine;  // of the error
 };
@@ -52,7 +58,8 @@ struct RenderReport {
   double wavelength_m = 0;
   double fps = 0, wall_s = 0;  // frames that were drawn, by all the time it took
   std::map<std::string, int>
-      skipped;  // what was left out and how often: "existing frames", "unchanged pose", …
+      skipped;  // what was left out and how often: "existing frames", "unchanged poses", …
+  std::map<std::string, double> saved_s;  // estimates, where there was something to compare with
   bool interrupted = false;
   // fine; no_output: a frame or the state could not be written, and the run stopped; some_frames: memory was
   // too small for some, the others stand; try_again: for all.

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <system_error>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/units.h"
 #include "cli/report.h"
 #include "config/options.h"
 #include "config/scene_file.h"
@@ -24,6 +26,13 @@ bool is_scene(const std::string& path) {
 }
 
 }  // namespace
+
+double positive_number(const std::string& option, const std::string& text) {
+  const auto number = parse_number(text);
+  if (!number || !std::isfinite(*number) || *number <= 0)
+    throw Error(ExitCode::bad_input, fmt::format("{}: '{}' is no number above 0", option, text));
+  return *number;
+}
 
 int whole_number(const std::string& option, const std::string& text, int low, int high) {
   int value = 0;

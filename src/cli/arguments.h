@@ -21,7 +21,8 @@ inline std::string described(std::string_view text) {
   return wrapped(text, 76);
 }
 
-// A whole number in low … high. Throws Error(bad_input) that names the option.
+// A number above 0; a whole number in low … high. Throw Error(bad_input) that names the option.
+double positive_number(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);
 
 // --threads, -q, -v, --json.

@@ -36,6 +36,15 @@ struct Arguments {
                    described("With --displace: halve the mesh's edges this often; default: as often as the "
                              "waves need. Allowed: 0 … 8."))
         ->type_name("N");
+    app.add_option(
+           "--budget", budget,
+           described("Keep a frame, from pose to picture, within so many milliseconds: rounds, interval "
+                     "and samples give way, in this order"))
+        ->type_name("MS");
+    app.add_option("--max-error", max_error,
+                   described("Relax for as many rounds, and as seldom, as keep what one more would move the "
+                             "phases by below so many radians"))
+        ->type_name("E");
     app.add_option("--state", state,
                    described("Keep the waves' memory in this file, so that a later run goes on from it"))
         ->type_name("FILE");
@@ -60,6 +69,8 @@ struct Arguments {
       if (!displace) throw Error(ExitCode::bad_input, "--levels goes with --displace");
       request.levels = whole_number("--levels", levels, 0, most_levels);
     }
+    if (!budget.empty()) request.budget_ms = positive_number("--budget", budget);
+    if (!max_error.empty()) request.max_error = positive_number("--max-error", max_error);
     request.device = device.device();
     request.shader_folder = shaders;
     return request;
@@ -69,7 +80,7 @@ struct Arguments {
   DeviceArguments device;
   CommonArguments common;
   std::vector<std::string> aovs;
-  std::string state, shaders, levels;
+  std::string state, shaders, levels, budget, max_error;
   bool displace = false;
   bool skip_existing = false, overwrite = false;
 };
@@ -90,6 +101,11 @@ ordered_json to_json(const FrameReport& frame) {
                        {"path", frame.path},
                        {"ms", ms},
                        {"skipped", frame.skipped}};
+  if (!frame.left_out.empty()) json["left_out"] = frame.left_out;
+  if (frame.effort)
+    json["effort"] = {{"rounds", frame.effort->rounds},
+                      {"interval", frame.effort->interval},
+                      {"samples", frame.effort->samples}};
   if (!frame.error.empty()) json["error"] = frame.error;
   return json;
 }
@@ -108,6 +124,7 @@ ordered_json to_json(const RenderReport& report) {
           {"fps", report.fps},
           {"wall_s", report.wall_s},
           {"skipped", report.skipped},
+          {"saved_s", report.saved_s},
           {"interrupted", report.interrupted}};
 }
 

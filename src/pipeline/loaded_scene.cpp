@@ -405,9 +405,9 @@ Hash LoadedScene::state_hash(int step) {
   return step == 0 ? state_base_ : chain_[static_cast<std::size_t>(step - 1)];
 }
 
-std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
-  Hash hash = state_hash(step_of_frame(frame));
-  hash.add(driver.hex());
+// What all frames have in common beyond the history.
+Hash LoadedScene::constants_hash() const {
+  Hash hash;
   add_items(hash, waves.wander);
   if (!waves.field.empty()) add_items(hash, waves.field);
   add_items(hash, profile.f);
@@ -440,14 +440,6 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
     hash.add(texture.image.width).add(texture.image.height);
     hash.add_bytes(texture.image.rgba);
   }
-  const passes::View at = view(frame);
-  add(hash, at.view_projection);
-  add(hash, at.eye);
-  add(hash, at.ambient);
-  for (const auto& light : at.lights) {
-    add(hash, light.direction);
-    add(hash, light.colour);
-  }
   const passes::Look l = look();
   hash.add(l.smooth_blend)
       .add(l.full_gradient)
@@ -455,9 +447,25 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
       .add(l.ground)
       .add(l.wireframe)
       .add(l.transparent);
-  hash.add(l.roughness).add(l.cavity).add(l.parallax).add(l.sheen).add(at.floor);
+  hash.add(l.roughness).add(l.cavity).add(l.parallax).add(l.sheen);
   add(hash, l.background);
   hash.add(settings.output.width).add(settings.output.height).add(settings.output.samples);
+  return hash;
+}
+
+std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
+  if (constants_.empty()) constants_ = constants_hash().hex();
+  Hash hash = state_hash(step_of_frame(frame));
+  hash.add(driver.hex()).add(constants_);
+  const passes::View at = view(frame);
+  add(hash, at.view_projection);
+  add(hash, at.eye);
+  add(hash, at.ambient);
+  hash.add(at.floor);
+  for (const auto& light : at.lights) {
+    add(hash, light.direction);
+    add(hash, light.colour);
+  }
   return hash.hex();
 }
 

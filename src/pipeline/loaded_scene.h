@@ -59,9 +59,11 @@ class LoadedScene {
   CameraSettings fitted_camera(const SceneSettings& given, const std::vector<glm::dvec3>& samples) const;
   passes::View view(int frame, const SceneSettings& given) const;
   void extend(int step);
+  Hash constants_hash() const;
   int preroll_ = 0;
   Animation::Bounds bounds_;
   Hash state_base_;
+  std::string constants_;   // of the hash of a frame, once one was asked for
   std::deque<Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
   int first_pose_ = 1;
   std::vector<Hash> chain_;  // after each step

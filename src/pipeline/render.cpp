@@ -9,7 +9,6 @@
 #include <new>
 
 #include "base/atomic_file.h"
-#include "base/colour.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -18,10 +17,9 @@
 #include "io/png.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
-#include "pipeline/displace.h"
+#include "pipeline/frame_drawer.h"
 #include "pipeline/frame_writer.h"
 #include "pipeline/loaded_scene.h"
-#include "pipeline/stepper.h"
 
 namespace plisse {
 namespace {
@@ -29,18 +27,6 @@ namespace {
 double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
-}
-
-// The picture was made with premultiplied colours in linear light; PNG wants straight alpha.
-void straighten_alpha(std::vector<std::uint8_t>& rgba) {
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    const std::uint8_t alpha = rgba[i + 3];
-    if (alpha == 0 || alpha == 255) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double straight = srgb_to_linear(rgba[i + c] / 255.0) * 255.0 / alpha;
-      rgba[i + c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(1.0, straight))));
-    }
-  }
 }
 
 // What draws: driver and shaders.
@@ -81,30 +67,71 @@ ExitCode outcome(const std::vector<FrameReport>& frames) {
   return stands ? ExitCode::some_frames : ExitCode::try_again;
 }
 
-// A scene whose waves are geometry, as the render pass takes it.
-class DisplacedScene {
+// --budget or --max-error at work, or neither.
+class Governor {
  public:
-  DisplacedScene(const pipeline::LoadedScene& scene, std::optional<int> levels)
-      : scene_(scene), displacement_(scene, levels), buffers_(scene.surface(), displacement_.mesh()) {}
-  void move(const passes::SurfaceBuffers& surface) {
-    buffers_.show(scene_.surface(), displacement_.mesh(), displacement_.at(surface));
+  Governor(const RenderRequest& request, const SceneSettings& settings) {
+    const Effort wanted{settings.relax.rounds, settings.relax.interval, settings.output.samples};
+    if (request.budget_ms > 0) time_.emplace(wanted, request.budget_ms);
+    if (request.max_error > 0) error_.emplace(wanted, request.max_error);
   }
-  const passes::SurfaceBuffers& surface() const { return buffers_; }
-  std::vector<passes::DrawPart> parts() const {
-    auto parts = scene_.draw_parts();
-    const int segments = displacement_.mesh().segments;
-    for (passes::DrawPart& part : parts) {
-      part.first_triangle *= static_cast<std::uint32_t>(segments * segments);
-      part.triangle_count *= static_cast<std::uint32_t>(segments * segments);
-    }
-    return parts;
+  bool active() const { return time_ || error_; }
+  std::optional<Effort> effort() const {
+    if (time_) return time_->effort();
+    if (error_) return error_->effort();
+    return std::nullopt;
+  }
+  void drew(pipeline::Stepper& stepper, double milliseconds) {
+    if (time_) time_->spent(milliseconds);
+    if (error_ && stepper.descended()) error_->moved(stepper.last_round_moved());
   }
 
  private:
-  const pipeline::LoadedScene& scene_;
-  pipeline::Displacement displacement_;
-  passes::SurfaceBuffers buffers_;
+  std::optional<pipeline::TimeBudget> time_;
+  std::optional<pipeline::ErrorBudget> error_;
 };
+
+// What was left out, times what it costs on average where it was not.
+std::map<std::string, double> saved_seconds(const RenderReport& report) {
+  const std::map<std::string, std::vector<const char*>> stages = {
+      {"unchanged poses", {"skin", "crush", "relax"}},
+      {"idle relaxations", {"relax"}},
+      {"copied pictures", {"render", "readback", "encode"}},
+  };
+  std::map<std::string, double> saved;
+  for (const auto& [what, names] : stages) {
+    const auto count = report.skipped.find(what);
+    if (count == report.skipped.end()) continue;
+    for (const char* stage : names) {
+      double sum = 0;
+      int frames = 0;
+      for (const FrameReport& frame : report.frames) {
+        if (std::ranges::count(frame.left_out, what) > 0) continue;
+        if (const auto found = frame.ms.find(stage); found != frame.ms.end()) {
+          sum += found->second;
+          ++frames;
+        }
+      }
+      if (frames > 0) saved[what] += 1e-3 * count->second * sum / frames;
+    }
+  }
+  return saved;
+}
+
+void check_budget(const RenderRequest& request) {
+  if (request.budget_ms <= 0 && request.max_error <= 0) return;
+  const char* option = request.budget_ms > 0 ? "--budget" : "--max-error";
+  const auto refuse = [&](const char* other) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{} makes frames that depend on more than the scene, so {} has nothing to trust: "
+                            "leave one of them out",
+                            option, other));
+  };
+  if (request.budget_ms > 0 && request.max_error > 0)
+    throw Error(ExitCode::bad_input, "--budget and --max-error exclude each other");
+  if (request.skip_existing) refuse("--skip-existing");
+  if (!request.state_file.empty()) refuse("--state");
+}
 
 // Displaced geometry has these of its own; the others are of single waves.
 void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
@@ -129,6 +156,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   check_frame_paths(output.path, frames);
   const auto aovs = pipeline::parse_aovs(request.aovs);
   check_aovs(aovs, request.displace);
+  check_budget(request);
 
   if (!request.state_file.empty()) check_writable(request.state_file);
   const gpu::Context context(request.device);
@@ -144,13 +172,9 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   report.wavelength_m = scene.wavelength();
   report.frames.resize(frames.size());
 
-  // Everything that only drawing needs is made when the first frame is drawn: a run that finds all frames
-  // done is quick.
-  std::optional<pipeline::Stepper> stepper;
-  std::optional<DisplacedScene> displaced;
-  std::optional<passes::RenderPass> pass;
-  std::optional<gpu::Target> target;
-  std::optional<pipeline::AovWriter> aov_writer;
+  // Made when the first frame is drawn: a run that finds all frames done is quick.
+  std::optional<pipeline::FrameDrawer> drawer;
+  Governor governor(request, scene.settings);
 
   std::mutex callback_mutex;
   int done = 0;
@@ -159,9 +183,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
     ++done;
     if (on_frame) on_frame(done, static_cast<int>(frames.size()), report.frames[index]);
   };
-  bool full = false;       // a frame could not be written: the next one would fare the same
-  io::Image last_picture;  // of the last drawn step, for poses that stay
-  int last_picture_step = 0;
+  bool full = false;  // a frame could not be written: the next one would fare the same
 
   {
     pipeline::FrameWriter writer;
@@ -179,8 +201,9 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       entry.frame = frame;
       entry.time_s = scene.animation.timeline().time(frame);
       entry.path = frame_path(output.path, frame);
-      std::string hash = scene.frame_hash(frame, driver);
-      if (request.displace) hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).hex();
+      std::string hash = governor.active() ? std::string() : scene.frame_hash(frame, driver);
+      if (request.displace && !hash.empty())
+        hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).hex();
       const bool exists = std::filesystem::exists(entry.path);
       if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
           pipeline::aovs_are_whole(aovs, entry.path, hash)) {
@@ -189,68 +212,38 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         finished(i);
         continue;
       }
-      if (!stepper) {
-        stepper.emplace(scene, timer, request.shader_folder);
+      if (!drawer) {
+        drawer.emplace(scene, request, aovs, context, timer);
         if (!request.state_file.empty())
-          stepper->read_state(request.state_file, driver, scene.step_of_frame(frame));
-        if (request.displace) displaced.emplace(scene, request.levels);
-        passes::Look look = scene.look();
-        look.displaced = request.displace;
-        pass.emplace(look, scene.profile, displaced ? displaced->parts() : scene.draw_parts(),
-                     scene.texture_levels(), request.shader_folder);
-        target.emplace(output.width, output.height, output.samples, gpu::Target::Format::srgb8);
-        if (!aovs.empty()) aov_writer.emplace(scene, *pass, aovs);
+          drawer->stepper().read_state(request.state_file, driver, scene.step_of_frame(frame));
       }
-      const int step = scene.step_of_frame(frame);
-      const int before = stepper->step();
-      if (!stepper->advance_to(step)) {
+      const double began = now_ms();
+      const auto skipped_before = drawer->skipped();
+      entry.effort = governor.effort();
+      if (entry.effort) drawer->set_effort(*entry.effort);
+      if (!drawer->advance_to(frame)) {
         entry.frame = 0;
         report.interrupted = true;
         break;
       }
-      const passes::View view = scene.view(frame);
-      io::Image picture;
-      guarded(entry, [&] {
-        const auto drawn = [&]() -> const passes::SurfaceBuffers& {
-          return displaced ? displaced->surface() : stepper->surface();
-        };
-        const bool same = stepper->unchanged() && before == step - 1 && last_picture_step == before &&
-                          scene.settings.camera.name.empty();
-        if (same) {
-          picture = last_picture;
-        } else {
-          if (displaced) {
-            const double began = now_ms();
-            displaced->move(stepper->surface());
-            entry.ms["displace"] = now_ms() - began;
-          }
-          timer.begin("render");
-          pass->draw_resolved(drawn(), view, *target, context.info().software);
-          timer.end();
-          const double read = now_ms();
-          picture.width = output.width;
-          picture.height = output.height;
-          picture.rgba = target->read_rgba8();
-          if (output.transparent) straighten_alpha(picture.rgba);
-          entry.ms["readback"] = now_ms() - read;
-          last_picture = picture;
-        }
-        last_picture_step = step;
-        if (aov_writer) aov_writer->write(drawn(), view, entry.path, hash);
-      });
+      std::shared_ptr<pipeline::Picture> picture;
+      guarded(entry, [&] { picture = drawer->draw(entry, hash); });
       for (const auto& [stage, ms] : timer.collect()) entry.ms[stage] += ms;
+      for (const auto& [what, count] : drawer->skipped()) {
+        const auto before = skipped_before.find(what);
+        if (before == skipped_before.end() || before->second != count) entry.left_out.push_back(what);
+      }
+      governor.drew(drawer->stepper(), now_ms() - began);
 
-      writer.submit([&, i, hash, picture = std::move(picture)] {
+      writer.submit([&, i, hash, picture] {
         FrameReport& mine = report.frames[i];
         if (mine.error.empty()) {
           guarded(mine, [&] {
             const double encode = now_ms();
-            io::PngOptions options;
-            options.hash = hash;
-            const auto bytes = io::encode_png(picture, options);
+            const auto [bytes, compressed] = picture->png(hash);
             const double write = now_ms();
             write_whole_file(mine.path, bytes);
-            mine.ms["encode"] = write - encode;
+            if (compressed) mine.ms["encode"] = write - encode;
             mine.ms["write"] = now_ms() - write;
           });
         }
@@ -269,11 +262,12 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
     if (report.failure.empty()) report.failure = frame.error;
   int drawn = 0;
   for (const FrameReport& frame : report.frames) drawn += !frame.skipped && frame.error.empty() ? 1 : 0;
-  if (stepper) {
-    if (stepper->unchanged_steps() > 0) report.skipped["unchanged poses"] = stepper->unchanged_steps();
+  if (drawer) {
+    report.skipped.merge(drawer->skipped());
+    report.saved_s = saved_seconds(report);
     if (!request.state_file.empty()) {
       try {
-        stepper->write_state(request.state_file, driver);
+        drawer->stepper().write_state(request.state_file, driver);
       } catch (const Error& error) {  // the frames stand all the same
         report.outcome = ExitCode::no_output;
         if (report.failure.empty()) report.failure = error.what();

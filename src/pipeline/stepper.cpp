@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <glm/gtc/constants.hpp>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -24,6 +26,7 @@ passes::RelaxOptions relax_options(const RelaxSettings& settings) {
 
 Stepper::Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& shader_folder)
     : scene_(scene),
+      settings_(scene.settings.relax),
       timer_(timer),
       surface_(scene.surface(), scene.rest, scene.waves, scene.units, scene.settings.wrinkles.seed),
       skin_(scene.pose(1).palette.size(), scene.surface().target_count, shader_folder),
@@ -33,7 +36,7 @@ Stepper::Stepper(LoadedScene& scene, gpu::StageTimer& timer, const std::string& 
       remembered_states_(surface_.states.bytes()) {}
 
 bool Stepper::crush_runs_at(int step) const {
-  return (scene_.frame_of_step(step) - 1) % scene_.settings.relax.interval == 0;
+  return (scene_.frame_of_step(step) - 1) % settings_.interval == 0;
 }
 
 void Stepper::skin(const Pose& pose) {
@@ -54,14 +57,31 @@ void Stepper::skin(const Pose& pose) {
 
 void Stepper::crush() {
   timer_.begin("crush");
-  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, scene_.settings.relax.mode == RelaxMode::descent);
+  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, settings_.mode == RelaxMode::descent);
   timer_.end();
 }
 
 void Stepper::relax() {
   timer_.begin("relax");
-  relax_.run(surface_, relax_options(scene_.settings.relax));
+  descended_ = !relax_.idle(surface_);
+  if (descended_)
+    relax_.run(surface_, relax_options(settings_));
+  else
+    ++idle_relaxations_;
   timer_.end();
+}
+
+double Stepper::last_round_moved() const {
+  const auto now = surface_.phases.read<glm::vec2>(), before = surface_.phases_next.read<glm::vec2>();
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    if (now[v].y != 1) continue;  // set
+    const double turn = std::remainder(static_cast<double>(now[v].x) - before[v].x, 2 * glm::pi<double>());
+    sum += turn * turn;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
 void Stepper::observe(Stage stage) const {
@@ -88,6 +108,7 @@ bool Stepper::advance_to(int step) {
       observe(Stage::posed);
       last_pose_ = pose;
     }
+    descended_ = false;
     if (crushes) {
       crush();
       observe(Stage::crushed);
@@ -100,6 +121,7 @@ bool Stepper::advance_to(int step) {
     if (share > 0) {
       relax_.lead(surface_, remembered_phases_, remembered_states_, share);
       observe(Stage::led);
+      descended_ = false;
     }
     unchanged_ = !moved && !crushes && !(share > 0);
     if (unchanged_) ++unchanged_steps_;

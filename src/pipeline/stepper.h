@@ -30,6 +30,14 @@ class Stepper {
   // Whether the last step found the pose of the one before, bit for bit, and left everything as it was.
   bool unchanged() const { return unchanged_; }
   int unchanged_steps() const { return unchanged_steps_; }
+  // Steps that were crushed and had no wave to relax.
+  int idle_relaxations() const { return idle_relaxations_; }
+  // From now on, in place of the scene's own rounds and interval: frames then depend on when this was called.
+  void set_relax(const RelaxSettings& relax) { settings_ = relax; }
+  // Whether the last step ended with a round of descent; and by what (root mean square over set vertices,
+  // radians) that moved the phases. Reads them back.
+  bool descended() const { return descended_; }
+  double last_round_moved() const;
   // Whether crush and relax run at a step: every n-th frame of the clip.
   bool crush_runs_at(int step) const;
 
@@ -52,6 +60,7 @@ class Stepper {
   void relax();
   void observe(Stage stage) const;
   LoadedScene& scene_;
+  RelaxSettings settings_;
   gpu::StageTimer& timer_;
   passes::SurfaceBuffers surface_;
   passes::SkinPass skin_;
@@ -61,8 +70,8 @@ class Stepper {
       remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
   std::optional<Pose> last_pose_, crushed_pose_;
-  bool unchanged_ = false;
-  int unchanged_steps_ = 0;
+  bool unchanged_ = false, descended_ = false;
+  int unchanged_steps_ = 0, idle_relaxations_ = 0;
 };
 
 }  // namespace plisse::pipeline

@@ -1,0 +1,142 @@
+#include "pipeline/frame_drawer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/colour.h"
+#include "io/png.h"
+
+namespace plisse::pipeline {
+namespace {
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+// The picture was made with premultiplied colours in linear light; PNG wants straight alpha.
+void straighten_alpha(std::vector<std::uint8_t>& rgba) {
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const std::uint8_t alpha = rgba[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double straight = srgb_to_linear(rgba[i + c] / 255.0) * 255.0 / alpha;
+      rgba[i + c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(1.0, straight))));
+    }
+  }
+}
+
+passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
+  passes::Look look = scene.look();
+  look.displaced = request.displace;
+  return look;
+}
+
+}  // namespace
+
+std::pair<std::vector<std::uint8_t>, bool> Picture::png(const std::string& hash) {
+  bool compressed = false;
+  std::call_once(once_, [&] {
+    png_ = io::encode_png(image_);
+    image_ = {};
+    compressed = true;
+  });
+  return {hash.empty() ? png_ : io::with_hash(png_, hash), compressed};
+}
+
+FrameDrawer::Geometry::Geometry(const LoadedScene& scene, std::optional<int> levels)
+    : displacement(scene, levels), buffers(scene.surface(), displacement.mesh()) {}
+
+FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
+                         const std::vector<passes::Aov>& aovs, const gpu::Context& context,
+                         gpu::StageTimer& timer)
+    : scene_(scene),
+      request_(request),
+      software_(context.info().software),
+      timer_(timer),
+      stepper_(scene, timer, request.shader_folder),
+      geometry_(request.displace ? std::make_optional<Geometry>(scene, request.levels) : std::nullopt),
+      pass_(look_of(scene, request), scene.profile, parts(), scene.texture_levels(), request.shader_folder),
+      samples_(scene.settings.output.samples) {
+  if (!aovs.empty()) aov_writer_.emplace(scene, pass_, aovs);
+}
+
+std::vector<passes::DrawPart> FrameDrawer::parts() const {
+  auto parts = scene_.draw_parts();
+  if (geometry_) {
+    const auto segments = static_cast<std::uint32_t>(geometry_->displacement.mesh().segments);
+    for (passes::DrawPart& part : parts) {
+      part.first_triangle *= segments * segments;
+      part.triangle_count *= segments * segments;
+    }
+  }
+  return parts;
+}
+
+const gpu::Target& FrameDrawer::target() {
+  const auto& output = scene_.settings.output;
+  const auto found = targets_.find(samples_);
+  if (found != targets_.end()) return found->second;
+  return targets_
+      .emplace(samples_, gpu::Target(output.width, output.height, samples_, gpu::Target::Format::srgb8))
+      .first->second;
+}
+
+void FrameDrawer::set_effort(const Effort& effort) {
+  if (samples_ != effort.samples) picture_.reset();
+  samples_ = effort.samples;
+  RelaxSettings relax = scene_.settings.relax;
+  relax.rounds = effort.rounds;
+  relax.interval = effort.interval;
+  stepper_.set_relax(relax);
+}
+
+bool FrameDrawer::advance_to(int frame) {
+  const int step = scene_.step_of_frame(frame), before = stepper_.step();
+  if (!stepper_.advance_to(step)) return false;
+  // A camera of the model's own may move where the pose does not.
+  stays_ = stepper_.unchanged() && before == step - 1 && picture_step_ == before &&
+           scene_.settings.camera.name.empty();
+  frame_ = frame;
+  return true;
+}
+
+std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string& hash) {
+  const auto& output = scene_.settings.output;
+  const passes::View view = scene_.view(frame_);
+  if (stays_ && picture_) {
+    ++copied_;
+  } else {
+    picture_.reset();
+    if (geometry_) {
+      const double began = now_ms();
+      geometry_->buffers.show(scene_.surface(), geometry_->displacement.mesh(),
+                              geometry_->displacement.at(stepper_.surface()));
+      entry.ms["displace"] = now_ms() - began;
+    }
+    const gpu::Target& target = this->target();
+    timer_.begin("render");
+    if (!pass_.draw_resolved(drawn(), view, target, software_)) ++out_of_view_;
+    timer_.end();
+    const double read = now_ms();
+    io::Image image{output.width, output.height, target.read_rgba8()};
+    if (output.transparent) straighten_alpha(image.rgba);
+    entry.ms["readback"] = now_ms() - read;
+    picture_ = std::make_shared<Picture>(std::move(image));
+  }
+  picture_step_ = stepper_.step();
+  if (aov_writer_) aov_writer_->write(drawn(), view, entry.path, hash);
+  return picture_;
+}
+
+std::map<std::string, int> FrameDrawer::skipped() const {
+  std::map<std::string, int> all{{"unchanged poses", stepper_.unchanged_steps()},
+                                 {"idle relaxations", stepper_.idle_relaxations()},
+                                 {"copied pictures", copied_},
+                                 {"surfaces out of view", out_of_view_}};
+  std::erase_if(all, [](const auto& item) { return item.second == 0; });
+  return all;
+}
+
+}  // namespace plisse::pipeline

@@ -1,0 +1,81 @@
+// Steps a scene to a frame and draws it: everything of a run that needs OpenGL. What cannot be seen or does
+// not change is left out, and counted.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/target.h"
+#include "io/model.h"
+#include "passes/render.h"
+#include "pipeline.h"
+#include "pipeline/aov.h"
+#include "pipeline/displace.h"
+#include "pipeline/loaded_scene.h"
+#include "pipeline/stepper.h"
+
+namespace plisse::pipeline {
+
+// A finished picture and its PNG, which is made by whoever needs it first: a picture that stays for several
+// frames is compressed once. Many threads may ask.
+class Picture {
+ public:
+  explicit Picture(io::Image image) : image_(std::move(image)) {}
+  // The file of a frame with this hash (none: empty), and whether it was this call that compressed it.
+  std::pair<std::vector<std::uint8_t>, bool> png(const std::string& hash);
+
+ private:
+  io::Image image_;
+  std::once_flag once_;
+  std::vector<std::uint8_t> png_;
+};
+
+class FrameDrawer {
+ public:
+  // Needs a current context. `aovs`: what request.aovs names.
+  FrameDrawer(LoadedScene& scene, const RenderRequest& request, const std::vector<passes::Aov>& aovs,
+              const gpu::Context& context, gpu::StageTimer& timer);
+
+  Stepper& stepper() { return stepper_; }
+  void set_effort(const Effort& effort);
+  // Steps on to a frame, with all between; false where the run was interrupted.
+  bool advance_to(int frame);
+  // The frame that it stands at; AOVs are written beside `entry.path`. Adds the stages' milliseconds.
+  std::shared_ptr<Picture> draw(FrameReport& entry, const std::string& hash);
+
+  // What was left out, and how often.
+  std::map<std::string, int> skipped() const;
+
+ private:
+  // Waves as geometry, as the render pass takes it.
+  struct Geometry {
+    Geometry(const LoadedScene& scene, std::optional<int> levels);
+    Displacement displacement;
+    passes::SurfaceBuffers buffers;
+  };
+  std::vector<passes::DrawPart> parts() const;
+  const passes::SurfaceBuffers& drawn() { return geometry_ ? geometry_->buffers : stepper_.surface(); }
+  const gpu::Target& target();
+
+  LoadedScene& scene_;
+  const RenderRequest& request_;
+  bool software_;
+  gpu::StageTimer& timer_;
+  Stepper stepper_;
+  std::optional<Geometry> geometry_;
+  passes::RenderPass pass_;
+  std::map<int, gpu::Target> targets_;  // by samples
+  int samples_;
+  std::optional<AovWriter> aov_writer_;
+  std::shared_ptr<Picture> picture_;  // of the step before, for poses that stay
+  int picture_step_ = 0, frame_ = 0;
+  bool stays_ = false;
+  int copied_ = 0, out_of_view_ = 0;
+};
+
+}  // namespace plisse::pipeline
