@@ -58,6 +58,9 @@ struct Arguments {
                "base.ply, or base_####.ply for a file a frame; several frames in one file are the first "
                "as PLY and all as a point cache (base.pc2) that 'plisse render --cache' reads"))
         ->type_name("FILE");
+    app.add_option("--steps", steps,
+                   described("In how many frames the load comes on; default: the scene's, an example's 24"))
+        ->type_name("N");
     app.add_option(
            "--tolerance", tolerance,
            described("Converged where unbalanced forces are this share of those that meet (default 1e-8)"))
@@ -67,8 +70,8 @@ struct Arguments {
   }
 
   CommonArguments common;
-  std::string input, example, vertices, seed, model, residual, perturb, start, frames, output = "base.ply",
-                                                                                       tolerance, iterations;
+  std::string input, example, vertices, seed, model, residual, perturb, start, frames, steps,
+      output = "base.ply", tolerance, iterations;
   bool list = false;
 };
 
@@ -123,6 +126,7 @@ DrapeScene scene_of(const Arguments& arguments) {
     scene.newton.tolerance = number_in("--tolerance", arguments.tolerance, 1e-14, 1);
   if (!arguments.iterations.empty())
     scene.newton.max_iterations = whole_number("--iterations", arguments.iterations, 1, 1000000);
+  if (!arguments.steps.empty()) scene.frames = whole_number("--steps", arguments.steps, 1, 1000000);
   if (!arguments.start.empty()) scene.start = read_start(arguments.start, scene);
   return scene;
 }

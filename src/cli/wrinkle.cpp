@@ -9,16 +9,19 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/units.h"
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "config/frames.h"
 #include "config/suggest.h"
 #include "pipeline.h"
 #include "pipeline/drape_examples.h"
 #include "pipeline/drape_setup.h"
-#include "pipeline/wrinkle.h"
+#include "pipeline/wrinkle_sequence.h"
 
 namespace plisse::cli {
 namespace {
@@ -31,7 +34,21 @@ struct Arguments {
            "input", input,
            described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
                      "authors; what is not draped yet is draped first"))
-        ->type_name("BASE.ply|SCENE.toml|SETUP.json");
+        ->type_name("BASE.ply|BASE_####.ply|SCENE.toml|SETUP.json");
+    app.add_option(
+           "--frames", frames,
+           described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache): which; "
+                     "default all. Those before are solved on the way."))
+        ->type_name("RANGES");
+    app.add_option("--cache", cache, "A point cache that moves BASE.ply: .pc2 or .mdd")->type_name("FILE");
+    app.add_option("--fade", fade,
+                   described("Over a sequence: how many frames show both fields where the number of waves "
+                             "changes (default 6)"))
+        ->type_name("FRAMES");
+    app.add_option("--hysteresis", hysteresis,
+                   described("Over a sequence: how many times as much as the new number of waves the old one "
+                             "must cost before it changes (default 9)"))
+        ->type_name("X");
     app.add_option("--example", example,
                    "A built-in scene instead; 'plisse drape --list-examples' names them")
         ->type_name("NAME");
@@ -40,8 +57,8 @@ struct Arguments {
         ->type_name("S");
     app.add_option(
            "-o,--output", output,
-           described("field.ply (the default), or NAME_amplitude_REST.txt for the authors' three text "
-                     "files"))
+           described("field.ply (the default; field_####.ply of a sequence), or NAME_amplitude_REST.txt "
+                     "for the authors' three text files"))
         ->type_name("FILE");
     app.add_option("--mesh", mesh,
                    described("The waves as geometry, too: .ply, .obj or .glb, with normals and uv"))
@@ -93,9 +110,9 @@ struct Arguments {
   }
 
   CommonArguments common;
-  std::string input, example, vertices, seed, output = "field.ply", mesh, levels, rule = "paper",
-                                              curvature = "2", factor = "1", frequency = "1",
-                                              iterations = "500";
+  std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
+                                    levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
+                                    iterations = "500";
   std::vector<std::string> without, evaluate;
   bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false;
 };
@@ -132,6 +149,12 @@ WrinkleScene scene_of(const Arguments& arguments) {
   return base_of(load_drape(arguments.input));
 }
 
+bool is_sequence(const Arguments& arguments) {
+  return !arguments.cache.empty() ||
+         (is_frame_pattern(arguments.input) && std::filesystem::path(arguments.input).extension() == ".ply");
+}
+
+// But for the scene.
 WrinkleRequest request_of(const Arguments& arguments) {
   WrinkleRequest request;
   one_of("--wrinkle-free", arguments.rule, {"paper", "authors"});
@@ -151,13 +174,14 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.options.all_starts = arguments.all_starts;
   request.crest_compression = arguments.crest_compression;
   request.pin_held = !arguments.free_held;
-  request.output = arguments.output;
+  request.output = !arguments.output.empty() ? arguments.output
+                   : is_sequence(arguments)  ? "field_####.ply"
+                                             : "field.ply";
   request.mesh = arguments.mesh;
   if (request.mesh.empty() && (arguments.mesh_v1 || !arguments.levels.empty()))
     throw Error(ExitCode::bad_input, "--levels and --mesh-v1 are for geometry: name its file with --mesh");
   if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
   request.mesh_v1 = arguments.mesh_v1;
-  request.scene = scene_of(arguments);
   return request;
 }
 
@@ -201,9 +225,75 @@ ordered_json to_json(const WrinkleReport& report) {
           {"trace", trace}};
 }
 
+ordered_json to_json(const WrinkleSequenceReport& report) {
+  ordered_json outputs = ordered_json::array(), frames = ordered_json::array(),
+               changes = ordered_json::array();
+  for (const auto& output : report.outputs)
+    outputs.push_back({{"path", output.path.string()}, {"kind", output.kind}, {"frame", output.frame}});
+  for (const WrinkleSequenceFrame& frame : report.frames) {
+    const wrinkle::SequenceFrame& solved = frame.solved;
+    if (solved.waves_before)
+      changes.push_back({{"frame", frame.frame}, {"from", *solved.waves_before}, {"to", solved.waves}});
+    frames.push_back({{"frame", frame.frame},
+                      {"waves", solved.waves},
+                      {"share", solved.share},
+                      {"phase_step_rad", solved.phase_step},
+                      {"max_amplitude_m", frame.max_amplitude},
+                      {"wrinkle_free_faces", frame.wrinkle_free_faces},
+                      {"energy_J", solved.energy},
+                      {"kkt_scaled", solved.kkt},
+                      {"iterations", solved.iterations},
+                      {"converged", solved.converged},
+                      {"reason", solved.reason},
+                      {"solve_s", solved.solve_s},
+                      {"upsample_s", frame.upsample_s}});
+  }
+  return {{"vertices", report.vertices},       {"faces", report.faces}, {"converged", report.converged},
+          {"interrupted", report.interrupted}, {"changes", changes},    {"frames", frames},
+          {"wall_s", report.wall_s},           {"outputs", outputs}};
+}
+
+int run_sequence(const Arguments& arguments, WrinkleRequest each) {
+  if (!arguments.example.empty() || !arguments.evaluate.empty())
+    throw Error(ExitCode::bad_input, "--example and --evaluate are for one base surface, not for a sequence");
+  WrinkleSequenceRequest request;
+  request.each = std::move(each);
+  request.bases = arguments.input;
+  request.cache = arguments.cache;
+  request.frames = arguments.frames;
+  request.fade = whole_number("--fade", arguments.fade, 0, 1000);
+  request.hysteresis = number_in("--hysteresis", arguments.hysteresis, 1, 1e6);
+  install_interrupt_handlers();
+  WrinkleSequenceReport report;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    request.progress = [&](int frame, int frames) { progress.update(frame, frames, "solved"); };
+    report = wrinkle_sequence(request);
+  }
+  for (const WrinkleSequenceFrame& frame : report.frames) {
+    const wrinkle::SequenceFrame& solved = frame.solved;
+    if (!solved.converged)
+      log::notice(fmt::format("frame {}: NOT CONVERGED: {}", frame.frame, solved.reason));
+    if (solved.waves_before)
+      log::notice(fmt::format("frame {}: {:.4g} waves become {:.4g}", frame.frame, *solved.waves_before,
+                              solved.waves));
+  }
+  const auto& last = report.frames.back();
+  log::notice(fmt::format("{} frames in {:.2f} s; {} vertices, at last {:.4g} waves, at most {:.4g} mm high",
+                          report.frames.size(), report.wall_s, report.vertices, last.solved.waves,
+                          1e3 * last.max_amplitude));
+  write_report(to_json(report), arguments.common.json());
+  if (report.interrupted) return 128 + signal_number();
+  return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
 int run_wrinkle(Arguments& arguments) {
   arguments.common.apply();
-  const WrinkleRequest request = request_of(arguments);
+  WrinkleRequest request = request_of(arguments);
+  if (is_sequence(arguments)) return run_sequence(arguments, std::move(request));
+  if (!arguments.frames.empty())
+    throw Error(ExitCode::bad_input, "--frames is for sequences: base_####.ply, or base.ply with --cache");
+  request.scene = scene_of(arguments);
   if (!arguments.evaluate.empty()) {
     const WrinkleEvaluation evaluation =
         evaluate_field(request, arguments.evaluate[0], arguments.evaluate[1]);
@@ -236,7 +326,9 @@ Command add_wrinkle(CLI::App& program) {
       program.add_subcommand("wrinkle", "Solve amplitude and phase of the wrinkles on a base surface");
   app->footer(
       "\nplisse drape --example twisted-cylinder -o base.ply && plisse wrinkle base.ply -o field.ply\n"
-      "A scene whose model is base.ply takes it up with [bias] field = \"field.ply\", use = \"direct\".");
+      "A scene whose model is base.ply takes it up with [bias] field = \"field.ply\", use = \"direct\".\n"
+      "plisse wrinkle base_####.ply -o field_####.ply --mesh waves_####.glb    over time: waves glide, not "
+      "pop");
   auto arguments = std::make_shared<Arguments>(*app);
   return {app, [arguments] { return run_wrinkle(*arguments); }};
 }

@@ -6,15 +6,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "io/ply.h"
 #include "io/wrinkle_field.h"
 #include "pipeline/drape.h"
-#include "pipeline/wrinkle_mesh.h"
+#include "pipeline/wrinkle_files.h"
 #include "shell/carry.h"
 
 namespace plisse {
@@ -40,74 +38,12 @@ double value_in(const io::Ply& ply, const fs::path& file, const std::string& nam
   throw bad(file, fmt::format("has no comment '{} VALUE'; a base surface of 'plisse drape' is wanted", name));
 }
 
+}  // namespace
+
 wrinkle::Model model_of(const WrinkleRequest& request) {
   return {request.scene.material, request.v1, request.v2, request.curvature_factor,
           request.crest_compression};
 }
-
-std::vector<double> values(const Eigen::VectorXd& vector) {
-  return {vector.begin(), vector.end()};
-}
-
-io::WrinkleField as_file(const wrinkle::BaseSurface& surface, const wrinkle::Field& field) {
-  io::WrinkleField result;
-  for (Eigen::Index v = 0; v < surface.positions.cols(); ++v)
-    result.positions.emplace_back(surface.positions(0, v), surface.positions(1, v), surface.positions(2, v));
-  result.amplitude = values(field.whole.waves.amplitude);
-  result.triangles = surface.topology.faces;
-  result.phase = field.phase;
-  return result;
-}
-
-// A phase for every vertex, from the last of its faces that has one.
-std::vector<double> vertex_phases(const wrinkle::BaseSurface& surface, const wrinkle::Field& field) {
-  std::vector<double> result(surface.topology.vertex_count, 0.0);
-  for (std::size_t f = 0; f < field.phase.size(); ++f) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (field.phase[f][c] != 0) result[surface.topology.faces[f][c]] = field.phase[f][c];
-    }
-  }
-  return result;
-}
-
-void write(const fs::path& output, const wrinkle::BaseSurface& surface, const wrinkle::Field& field) {
-  if (output.extension() == ".txt") {
-    io::write_wrinkle_texts(output, values(field.whole.waves.amplitude), vertex_phases(surface, field),
-                            values(field.one_form));
-  } else {
-    std::vector<std::string> comments;
-    for (const wrinkle::Solution* solution : {&field.real, &field.whole})
-      if (!solution->converged && comments.empty()) comments.push_back("not converged: " + solution->reason);
-    io::write_wrinkle_field(output, as_file(surface, field), comments);
-  }
-}
-
-void check_outputs(const WrinkleRequest& request) {
-  if (!request.output.empty()) {
-    if (request.output.extension() != ".ply" && request.output.extension() != ".txt")
-      throw bad(request.output,
-                "fields are written as .ply, or as NAME_amplitude_REST.txt with phi and dphi beside it");
-    check_writable(request.output);
-  }
-  if (!request.mesh.empty()) {
-    const std::string ending = lower_case(request.mesh.extension().string());
-    if (ending != ".ply" && ending != ".obj" && ending != ".glb")
-      throw bad(request.mesh, "meshes are written as .ply, .obj or .glb");
-    if (request.mesh == request.output) throw bad(request.mesh, "is both the field and the mesh");
-    check_writable(request.mesh);
-  }
-}
-
-// The waves as geometry.
-WrinkleMesh mesh_of(const WrinkleRequest& request, const std::vector<wrinkle::FaceForms>& forms,
-                    const wrinkle::CoarseField& field) {
-  const WrinkleScene& scene = request.scene;
-  Eigen::Matrix3Xd lean;
-  if (request.mesh_v1) lean = wrinkle::leaning(scene.surface, forms, scene.material.poisson, field);
-  return wrinkle_mesh(scene.name, scene.surface, field, request.levels, request.v2, std::move(lean));
-}
-
-}  // namespace
 
 WrinkleScene read_base(const fs::path& file) {
   const io::Ply ply = io::read_ply(file);
@@ -200,7 +136,9 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request) {
   report.wrinkled_vertices =
       static_cast<std::size_t>((amplitude.array() > 0.01 * report.max_amplitude).count());
   if (!request.output.empty()) {
-    write(request.output, surface, report.field);
+    const wrinkle::Solution& last = report.field.real.converged ? report.field.whole : report.field.real;
+    write_field(request.output, surface, {amplitude, report.field.phase}, report.field.one_form,
+                last.converged ? "" : last.reason);
     report.outputs.push_back({request.output, "field"});
   }
   if (!request.mesh.empty()) {

@@ -59,6 +59,9 @@ struct WrinkleReport {
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request);
 
+// Material and ablations, for the solver.
+wrinkle::Model model_of(const WrinkleRequest& request);
+
 struct WrinkleEvaluation {
   double energy = 0;    // J, as the solver's
   double kkt = 0;       // scaled residual
