@@ -21,6 +21,9 @@ constexpr double turn = 2 * std::numbers::pi;
 // since the frame before they start from this part of what they would have by themselves.
 constexpr double seed = 0.05;
 
+// Frames.
+constexpr int fresh_start_every = 6;
+
 bool has_waves(const CoarseField& field, const shell::Face& t) {
   return field.amplitude[t[0]] > 0 || field.amplitude[t[1]] > 0 || field.amplitude[t[2]] > 0;
 }
@@ -202,17 +205,27 @@ Solution FieldSequence::solve_on(const Problem& problem, const Waves& start, boo
   return solution;
 }
 
-// Periods that cost so much less that they are worth a change.
+// A field with other periods that costs so much less that it is worth a change: from what there is, and now
+// and then from a start that knows nothing of it, since there are many minima.
 std::optional<Waves> FieldSequence::other_periods(const Problem& problem, const Solution& kept,
-                                                  SequenceFrame& frame) const {
+                                                  SequenceFrame& frame) {
   if (kept.waves.period.size() == 0) return std::nullopt;
-  const Solution real = solve_on(problem, kept.waves, false, frame);
-  const Waves start = with_whole_periods(problem, real.waves);
-  if ((start.period - kept.waves.period).cwiseAbs().maxCoeff() < 1) return std::nullopt;
-  const Solution other = solve_on(problem, start, true, frame);
-  const double keeping = kept.energy - real.energy, changing = std::max(other.energy - real.energy, 0.0);
-  if (!(keeping > options_.hysteresis * changing) || flat(other.waves.amplitude)) return std::nullopt;
-  return other.waves;
+  std::vector<Waves> starts{kept.waves};
+  if (checks_++ % fresh_start_every == 0) starts.push_back(initial_waves(problem, options_.field.frequency));
+  std::optional<Solution> best;
+  double real_energy = kept.energy;
+  for (const Waves& start : starts) {
+    const Solution real = solve_on(problem, start, false, frame);
+    real_energy = std::min(real_energy, real.energy);
+    const Waves whole = with_whole_periods(problem, real.waves);
+    if ((whole.period - kept.waves.period).cwiseAbs().maxCoeff() < 1) continue;
+    Solution other = solve_on(problem, whole, true, frame);
+    if (!flat(other.waves.amplitude) && (!best || other.energy < best->energy)) best = std::move(other);
+  }
+  if (!best) return std::nullopt;
+  const double keeping = kept.energy - real_energy, changing = std::max(best->energy - real_energy, 0.0);
+  if (!(keeping > options_.hysteresis * changing)) return std::nullopt;
+  return best->waves;
 }
 
 std::optional<FieldSequence::State> FieldSequence::begun(const Problem& problem,
@@ -260,7 +273,7 @@ SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
         now_ = state_of(problem, *other);
         align(topology_, forms, before_->field, now_->field);
         frame.waves_before = before_->waves;
-        faded_ = 0;
+        faded_ = checks_ = 0;
         rises_ = false;
       }
     }

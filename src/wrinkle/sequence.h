@@ -61,8 +61,7 @@ class FieldSequence {
                              const std::vector<bool>& wrinkle_free, SequenceFrame& frame) const;
   Solution solve_on(const Problem& problem, const Waves& start, bool fixed_periods,
                     SequenceFrame& frame) const;
-  std::optional<Waves> other_periods(const Problem& problem, const Solution& kept,
-                                     SequenceFrame& frame) const;
+  std::optional<Waves> other_periods(const Problem& problem, const Solution& kept, SequenceFrame& frame);
 
   shell::Topology topology_;
   Model model_;
@@ -71,6 +70,7 @@ class FieldSequence {
   std::optional<State> now_, before_;  // the newest periods; those that fade out
   int faded_ = 0;                      // frames since before_ began to fade
   bool rises_ = false;                 // now_ fades in from nothing
+  int checks_ = 0;                     // of periods since those of now_ began
   CoarseField shown_;                  // by the last frame; empty before the first
 };
 

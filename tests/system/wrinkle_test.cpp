@@ -120,6 +120,53 @@ TEST_F(Wrinkle, GeometryOfTheField) {
   EXPECT_THAT(ending.err, HasSubstr(".glb"));
 }
 
+// A tube that is twisted in six frames, from a file a frame and from a point cache.
+TEST_F(Wrinkle, OverTime) {
+  const std::vector<std::string> drape = {"drape",   "--example", "twisted-cylinder", "--vertices", "170",
+                                          "--steps", "6",         "--frames",         "1-6",        "-q",
+                                          "-o"};
+  const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return plisse(arguments);
+  };
+  ASSERT_EQ(with(drape, {file("base_####.ply")}).code, 0);
+  ASSERT_EQ(with(drape, {file("base.ply")}).code, 0);
+  const Outcome outcome =
+      plisse({"wrinkle", file("base_####.ply"), "-o", file("field_####.ply"), "--mesh", file("mesh_####.ply"),
+              "--levels", "1", "--frames", "5-6", "--fade", "1", "--json", file("report.json"), "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto files = report();
+  ASSERT_EQ(files["frames"].size(), 6U);  // those before are solved on the way
+  ASSERT_EQ(files["outputs"].size(), 4U);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "field_0004.ply"));
+  EXPECT_NEAR(files["frames"][5]["waves"].get<double>(), 40, 5);  // what the mesh has by itself
+  ASSERT_FALSE(files["changes"].empty());
+  for (const auto& change : files["changes"]) EXPECT_NE(change["from"], change["to"]);
+  io::read_wrinkle_field(file("field_0006.ply"), {});  // whose corners must agree, faded or not
+  const Outcome cached =
+      plisse({"wrinkle", file("base.ply"), "--cache", file("base.pc2"), "-o", file("cached_####.ply"),
+              "--fade", "1", "--json", file("report.json"), "-q"});
+  ASSERT_EQ(cached.code, 0) << cached.err;
+  const auto cache = report();
+  ASSERT_EQ(cache["frames"].size(), 6U);
+  for (std::size_t n = 0; n < 6; ++n) {
+    EXPECT_EQ(cache["frames"][n]["waves"], files["frames"][n]["waves"]) << n;
+    EXPECT_NEAR(cache["frames"][n]["energy_J"].get<double>() / files["frames"][n]["energy_J"].get<double>(),
+                1, 1e-3)
+        << n;  // single precision of places a metre from the middle, strains of a thousandth
+  }
+  const Outcome single = plisse({"wrinkle", file("base_####.ply"), "-o", file("field.ply"), "-q"});
+  EXPECT_EQ(single.code, 2);
+  EXPECT_THAT(single.err, HasSubstr("field_####.ply"));
+  ASSERT_EQ(plisse({"drape", "--example", "twisted-cylinder", "--vertices", "180", "--seed", "2", "-q", "-o",
+                    file("base_0004.ply")})
+                .code,
+            0);
+  const Outcome other = plisse({"wrinkle", file("base_####.ply"), "-o", file("field_####.ply"), "-q"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("base_0004.ply: has another mesh"));
+}
+
 TEST_F(Wrinkle, SaysWhatIsWrong) {
   EXPECT_EQ(plisse({"wrinkle"}).code, 2);
   write_text(folder_ / "x.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n");

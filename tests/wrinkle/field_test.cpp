@@ -11,37 +11,8 @@
 namespace plisse::wrinkle {
 namespace {
 
-using Eigen::Vector3d;
-using test::diagonal;
-using test::Grid;
+using test::Tube;
 constexpr double turn = 2 * std::numbers::pi;
-
-// A cylinder of radius r and height .3 m, closed round, under tension along its axis and compressed round it
-// by `compression`: rest faces are a rectangle's, base faces close it. Waves run round; amplitude 0 at the
-// ends.
-struct Tube {
-  shell::Topology topology;
-  std::vector<FaceForms> forms;
-  std::vector<bool> ends;
-
-  explicit Tube(double compression, double poisson = 0.3, double tension = 0.05, double curvature = 0) {
-    constexpr int around = 24, along = 12;
-    const Grid grid(0.6, 0.3, around, along);
-    std::vector<shell::Face> faces;
-    for (shell::Face f : grid.faces) {
-      for (auto& v : f) v = (v / (around + 1)) * around + v % (around + 1) % around;
-      faces.push_back(f);
-    }
-    topology = shell::build_topology(faces, around * (along + 1));
-    forms = test::prescribed(
-        grid, [&](const Vector3d&) { return diagonal(-poisson * tension - compression, tension); },
-        [&](const Vector3d&) { return diagonal(0, curvature); });
-    for (std::size_t v = 0; v < topology.vertex_count; ++v) ends.push_back(v < around || v >= around * along);
-  }
-  Field solve(const Model& model) const {
-    return solve_field(topology, forms, model, std::vector<bool>(forms.size(), false), ends);
-  }
-};
 
 // Corners of one vertex differ by whole turns, and sides by what both faces say.
 void expect_consistent(const shell::Topology& topology, const Field& field) {

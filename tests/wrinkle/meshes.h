@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "wrinkle/field.h"
 #include "wrinkle/solve.h"
 #include "wrinkle/start.h"
 #include "wrinkle/surface.h"
@@ -86,5 +87,32 @@ inline wrinkle::Model model(double young, double poisson, double thickness) {
   result.material.thickness = thickness;
   return result;
 }
+
+// A cylinder of radius r and height .3 m, closed round, under tension along its axis and compressed round it
+// by `compression`: rest faces are a rectangle's, base faces close it. Waves run round; amplitude 0 at the
+// ends.
+struct Tube {
+  shell::Topology topology;
+  std::vector<wrinkle::FaceForms> forms;
+  std::vector<bool> ends;
+
+  explicit Tube(double compression, double poisson = 0.3, double tension = 0.05, double curvature = 0) {
+    constexpr int around = 24, along = 12;
+    const Grid grid(0.6, 0.3, around, along);
+    std::vector<shell::Face> faces;
+    for (shell::Face f : grid.faces) {
+      for (auto& v : f) v = (v / (around + 1)) * around + v % (around + 1) % around;
+      faces.push_back(f);
+    }
+    topology = shell::build_topology(faces, around * (along + 1));
+    forms = prescribed(
+        grid, [&](const Eigen::Vector3d&) { return diagonal(-poisson * tension - compression, tension); },
+        [&](const Eigen::Vector3d&) { return diagonal(0, curvature); });
+    for (std::size_t v = 0; v < topology.vertex_count; ++v) ends.push_back(v < around || v >= around * along);
+  }
+  wrinkle::Field solve(const wrinkle::Model& model) const {
+    return wrinkle::solve_field(topology, forms, model, std::vector<bool>(forms.size(), false), ends);
+  }
+};
 
 }  // namespace plisse::test
