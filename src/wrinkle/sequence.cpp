@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "wrinkle/closed_form.h"
+#include "wrinkle/patches.h"
 #include "wrinkle/start.h"
 
 namespace plisse::wrinkle {
@@ -34,30 +35,6 @@ bool flat(const Eigen::VectorXd& amplitude) {
 
 Vector2d gradient(const FaceForms& forms, const std::array<double, 3>& phase) {
   return forms.rest.gradients * Eigen::Vector3d(phase[0], phase[1], phase[2]);
-}
-
-// The patch of every face with waves, counted from 0; none for others.
-std::vector<std::uint32_t> patches(const shell::Topology& topology, const CoarseField& field,
-                                   std::uint32_t& count) {
-  std::vector<std::uint32_t> patch(topology.faces.size(), shell::none);
-  count = 0;
-  std::vector<std::size_t> found;
-  for (std::size_t first = 0; first < patch.size(); ++first) {
-    if (patch[first] != shell::none || !has_waves(field, topology.faces[first])) continue;
-    found.assign(1, first);
-    patch[first] = count;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      for (std::size_t side = 0; side < 3; ++side) {
-        const std::uint32_t next = across(topology, found[i], side);
-        if (next == shell::none || patch[next] != shell::none || !has_waves(field, topology.faces[next]))
-          continue;
-        patch[next] = count;
-        found.push_back(next);
-      }
-    }
-    ++count;
-  }
-  return patch;
 }
 
 // Root mean square of the angle between two fields' a exp(iφ).
@@ -114,29 +91,27 @@ CoarseField cross_faded(const std::vector<shell::Face>& faces, const CoarseField
 void align(const shell::Topology& topology, const std::vector<FaceForms>& forms, const CoarseField& reference,
            CoarseField& field) {
   if (reference.phase.empty()) return;
-  std::uint32_t count = 0;
-  const std::vector<std::uint32_t> patch = patches(topology, field, count);
-  const auto weight = [&](std::size_t f, std::size_t c) {
-    const std::uint32_t v = topology.faces[f][c];
-    return forms[f].rest.area * reference.amplitude[v] * field.amplitude[v];
-  };
-  std::vector<double> agreement(count, 0);
-  for (std::size_t f = 0; f < patch.size(); ++f) {
-    if (patch[f] == shell::none) continue;
-    agreement[patch[f]] += (weight(f, 0) + weight(f, 1) + weight(f, 2)) *
-                           gradient(forms[f], reference.phase[f]).dot(gradient(forms[f], field.phase[f]));
-  }
-  std::vector<std::complex<double>> overlap(count, 0);
-  for (std::size_t f = 0; f < patch.size(); ++f) {
-    if (patch[f] == shell::none) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (agreement[patch[f]] < 0) field.phase[f][c] = -field.phase[f][c];
-      overlap[patch[f]] += std::polar(weight(f, c), reference.phase[f][c] - field.phase[f][c]);
+  std::vector<bool> waves;
+  for (const shell::Face& t : topology.faces) waves.push_back(has_waves(field, t));
+  for (const auto& patch : patches(topology, waves)) {
+    const auto weight = [&](std::uint32_t f, std::size_t c) {
+      const std::uint32_t v = topology.faces[f][c];
+      return forms[f].rest.area * reference.amplitude[v] * field.amplitude[v];
+    };
+    double agreement = 0;
+    for (const std::uint32_t f : patch)
+      agreement += (weight(f, 0) + weight(f, 1) + weight(f, 2)) *
+                   gradient(forms[f], reference.phase[f]).dot(gradient(forms[f], field.phase[f]));
+    std::complex<double> overlap = 0;
+    for (const std::uint32_t f : patch) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (agreement < 0) field.phase[f][c] = -field.phase[f][c];
+        overlap += std::polar(weight(f, c), reference.phase[f][c] - field.phase[f][c]);
+      }
     }
-  }
-  for (std::size_t f = 0; f < patch.size(); ++f) {
-    if (patch[f] == shell::none || std::abs(overlap[patch[f]]) == 0) continue;
-    for (double& phase : field.phase[f]) phase += std::arg(overlap[patch[f]]);
+    if (std::abs(overlap) == 0) continue;
+    for (const std::uint32_t f : patch)
+      for (double& phase : field.phase[f]) phase += std::arg(overlap);
   }
 }
 
@@ -189,7 +164,11 @@ Waves FieldSequence::carried(const Problem& problem, const CoarseField& before) 
 }
 
 FieldSequence::State FieldSequence::state_of(const Problem& problem, const Waves& waves) const {
-  return {{waves.amplitude, corner_phases(problem, waves)}, wave_count(problem, waves)};
+  const WaveCount count = count_waves(topology_, problem.forms(), problem.complex().live, waves.amplitude,
+                                      problem.one_form(waves));
+  // Round a loop they are whole but for rounding.
+  return {{waves.amplitude, corner_phases(problem, waves)},
+          count.round ? std::round(count.waves) : count.waves};
 }
 
 Solution FieldSequence::solve_on(const Problem& problem, const Waves& start, bool fixed_periods,

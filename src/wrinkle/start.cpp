@@ -1,13 +1,13 @@
 #include "wrinkle/start.h"
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 
+#include "wrinkle/closed_form.h"
 #include "wrinkle/local_waves.h"
 #include "wrinkle/patches.h"
 
@@ -89,39 +89,12 @@ struct Target {
   std::vector<double> weight;
 };
 
-// min Σ weight |dφ + Στγ − gradient|².
 void fit(const Problem& problem, const Target& target, Waves& waves) {
-  const PhaseComplex& complex = problem.complex();
-  const auto size = static_cast<Index>(complex.vertices + complex.periods);
-  waves.phase = VectorXd::Zero(static_cast<Index>(complex.vertices));
-  waves.period = VectorXd::Zero(static_cast<Index>(complex.periods));
-  if (size == 0) return;
-  std::vector<Eigen::Triplet<double>> entries;
-  VectorXd right = VectorXd::Zero(size);
-  double trace = 0;
-  for (std::size_t f = 0; f < target.local.size(); ++f) {
-    if (!complex.live[f]) continue;
-    const double w = target.weight[f];
-    const auto& gradients = problem.forms()[f].rest.gradients;
-    std::vector<std::pair<Index, Vector2d>> terms;
-    for (Index c = 0; c < 3; ++c)
-      terms.emplace_back(complex.phase_vertex[f][static_cast<std::size_t>(c)], gradients.col(c));
-    for (const auto& jump : complex.jumps[f])
-      terms.emplace_back(static_cast<Index>(complex.vertices + jump.period), gradients * jump.corners);
-    for (const auto& [i, x] : terms) {
-      right[i] += w * x.dot(target.local[f].gradient);
-      for (const auto& [j, y] : terms) entries.emplace_back(i, j, w * x.dot(y));
-      trace += w * x.squaredNorm();
-    }
-  }
-  // One phase of every component is free: a trace of the identity picks the smallest solution.
-  for (Index i = 0; i < size; ++i) entries.emplace_back(i, i, 1e-12 * trace / static_cast<double>(size));
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  const VectorXd solution = factor.solve(right);
-  waves.phase = solution.head(waves.phase.size());
-  waves.period = solution.tail(waves.period.size());
+  std::vector<Vector2d> gradients;
+  for (const LocalWaves& local : target.local) gradients.push_back(local.gradient);
+  Waves closed = nearest_closed(problem, gradients, target.weight);
+  waves.phase = std::move(closed.phase);
+  waves.period = std::move(closed.period);
 }
 
 Vector2d gradient_of(const Problem& problem, const Waves& waves, std::size_t face) {
