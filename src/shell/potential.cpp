@@ -342,21 +342,20 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
 }
 
 template <int Vertices>
-void Potential::scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>>& elements,
+void Potential::scatter(std::size_t face, const Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>& element,
                         const std::vector<std::uint32_t>& blocks) {
-  std::size_t at = 0;
-  for (std::size_t f = 0; f < elements.size(); ++f) {
-    const auto vertices = stencil(shell_.topology, f);
-    for (int k = 0; k < Vertices; ++k)
-      for (int l = 0; l <= k; ++l, ++at) {
-        const std::uint32_t a = vertices[static_cast<std::size_t>(k)],
-                            b = vertices[static_cast<std::size_t>(l)];
-        Matrix3d block = elements[f].template block<3, 3>(3 * k, 3 * l);
-        // One vertex across two edges (it has three triangles), or none across one, whose rows are 0.
-        if (a == b && k != l) block += block.transpose().eval();
-        add(blocks[at], block, place_[a] < place_[b]);
-      }
-  }
+  constexpr std::size_t pairs = Vertices * (Vertices + 1) / 2;
+  const auto vertices = stencil(shell_.topology, face);
+  std::size_t at = pairs * face;
+  for (int k = 0; k < Vertices; ++k)
+    for (int l = 0; l <= k; ++l, ++at) {
+      const std::uint32_t a = vertices[static_cast<std::size_t>(k)],
+                          b = vertices[static_cast<std::size_t>(l)];
+      Matrix3d block = element.template block<3, 3>(3 * k, 3 * l);
+      // One vertex across two edges (it has three triangles), or none across one, whose rows are 0.
+      if (a == b && k != l) block += block.transpose().eval();
+      add(blocks[at], block, place_[a] < place_[b]);
+    }
 }
 
 const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvature curvature) {
@@ -364,37 +363,49 @@ const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvat
   const std::size_t faces = topology.faces.size();
   Eigen::Map<Eigen::VectorXd>(matrix_.valuePtr(), matrix_.nonZeros()) = constant_;
 
-  std::vector<Matrix9> stretch(faces);
-  std::vector<Matrix18> bend(shell_.bending == Bending::midedge ? faces : 0);
-  tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
-    const Corners corners = corners_of(topology.faces[f], x);
-    stretching(law_, shell_.rest[f], corners, nullptr, &stretch[f], curvature);
-    if (curvature == Curvature::exact && loads_.pressure != 0) {
-      // −p V, V trilinear: the block of corners k and k + 1 is −p/6 times the cross product's with corner k
-      // + 2.
-      for (int k = 0; k < 3; ++k) {
-        const int next = (k + 1) % 3, last = (k + 2) % 3;
-        const Matrix3d block =
-            -loads_.pressure / 6 *
-            cross_matrix(corners.col(last) - apex(topology.component[topology.faces[f][0]], x));
-        stretch[f].block<3, 3>(3 * k, 3 * next) -= block;
-        stretch[f].block<3, 3>(3 * next, 3 * k) += block;
-      }
-    }
-    if (!bend.empty()) {
+  // Elements on all cores, their sum in order on one, so that it is the same on any number of cores; not all
+  // at once, since one with flaps has 3 kB.
+  constexpr std::size_t batch = 2048;
+  std::vector<Matrix9> stretch(std::min(batch, faces));
+  std::vector<Matrix18> bend(shell_.bending == Bending::midedge ? stretch.size() : 0);
+  for (std::size_t first = 0; first < faces; first += batch) {
+    const std::size_t count = std::min(batch, faces - first);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+      const std::size_t f = first + k;
+      stretch[k] = stretching_hessian(f, x, curvature);
+      if (bend.empty()) return;
       const Flap flap = flap_of(topology, f, x);
-      bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners, flap.across, flap.has,
-                      nullptr, &bend[f], curvature);
+      bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners_of(topology.faces[f], x),
+                      flap.across, flap.has, nullptr, &bend[k], curvature);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      scatter<3>(first + k, stretch[k], face_blocks_);
+      if (!bend.empty()) scatter<6>(first + k, bend[k], flap_blocks_);
     }
-  });
-  scatter<3>(stretch, face_blocks_);
-  scatter<6>(bend, flap_blocks_);
+  }
   const std::vector<Contact> touching = contacts(x, true);
   for (std::uint32_t v = 0; v < touching.size(); ++v)
     if (topology.component[v] != none)
       add(block_of(v, v),
           curvature == Curvature::exact ? touching[v].second : convex_part(touching[v].second), false);
   return matrix_;
+}
+
+Matrix9 Potential::stretching_hessian(std::size_t face, const Positions& x, Curvature curvature) const {
+  const Topology& topology = shell_.topology;
+  const Corners corners = corners_of(topology.faces[face], x);
+  Matrix9 hessian;
+  stretching(law_, shell_.rest[face], corners, nullptr, &hessian, curvature);
+  if (curvature == Curvature::positive || loads_.pressure == 0) return hessian;
+  // −p V, V trilinear: the block of corners k and k + 1 is −p/6 times the cross product's with corner k + 2.
+  const Vector3d from = apex(topology.component[topology.faces[face][0]], x);
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    const Matrix3d block = -loads_.pressure / 6 * cross_matrix(corners.col(last) - from);
+    hessian.block<3, 3>(3 * k, 3 * next) -= block;
+    hessian.block<3, 3>(3 * next, 3 * k) += block;
+  }
+  return hessian;
 }
 
 void Potential::advance(Positions& x, const Eigen::VectorXd& direction, double step) const {

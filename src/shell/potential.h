@@ -53,9 +53,12 @@ class Potential {
   std::uint32_t block_of(std::uint32_t a, std::uint32_t b) const;
   // Adds a 3×3 matrix to the block; `turned`: it stands for (column, row).
   void add(std::uint32_t block, const Eigen::Matrix3d& values, bool turned);
+  // Adds a face's matrix, of its corners and (6) the vertices across its edges.
   template <int Vertices>
-  void scatter(const std::vector<Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>>& elements,
+  void scatter(std::size_t face, const Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>& element,
                const std::vector<std::uint32_t>& blocks);
+  Matrix9 stretching_hessian(std::size_t face, const Positions& x,
+                             Curvature curvature) const;  // and pressure's
   // −p V and its derivative. Corners get a third of their faces' load each; what the cones' open sides add
   // along the boundary is no force of the sheet, so it counts as none in `size`.
   double pressure_energy(const Positions& x, Positions* sum, Positions* size) const;
