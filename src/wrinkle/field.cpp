@@ -8,6 +8,7 @@
 
 #include "wrinkle/local_waves.h"
 #include "wrinkle/patches.h"
+#include "wrinkle/singularities.h"
 #include "wrinkle/start.h"
 
 namespace plisse::wrinkle {
@@ -82,6 +83,7 @@ class Search {
           {frequency * options_.frequency, end.start_energy, end.energy, end.iterations, end.converged});
     }
     best_ = lowest_by_patch(std::move(ends));
+    opened();
   }
 
   void release() {
@@ -170,12 +172,38 @@ class Search {
     return true;
   }
 
-  bool take(const std::vector<bool>& released) {
+  // One face released at every vertex round which waves would turn: on a closed surface, or on a disk whose
+  // waves are rays, they could not even begin to close otherwise.
+  bool opened() {
+    const std::vector<int> index = double_index(forms_, whole_->topology(), whole_->complex().live);
+    std::vector<std::uint32_t> calmest(index.size(), shell::none);  // the least compressed face round each
+    for (std::uint32_t f = 0; f < forms_.size(); ++f) {
+      if (!whole_->complex().live[f]) continue;
+      for (const std::uint32_t v : whole_->topology().faces[f]) {
+        if (index[v] == 0 || !wants_[v]) continue;
+        if (calmest[v] == shell::none ||
+            principal_strain(forms_[f]).compression > principal_strain(forms_[calmest[v]]).compression)
+          calmest[v] = f;
+      }
+    }
+    std::vector<bool> released = released_;
+    for (const std::uint32_t f : calmest) {
+      if (f == shell::none) continue;
+      for (const std::uint32_t v : whole_->topology().faces[f]) released[v] = true;
+    }
+    if (released == released_) return false;
+    const auto problem = releasing(released);
+    return taken(problem, run(*problem, initial_waves(*problem, options_.frequency), brief()), released);
+  }
+
+  std::shared_ptr<const Problem> releasing(const std::vector<bool>& released) const {
     std::vector<bool> pinned = clamped_;
     for (std::size_t v = 0; v < pinned.size(); ++v) pinned[v] = pinned[v] || released[v];
-    auto problem =
-        std::make_shared<const Problem>(whole_->topology(), forms_, whole_->model(), wrinkle_free_, pinned);
-    Solution other = run(*problem, continued_waves(*problem, *problem_, best_.waves), brief());
+    return std::make_shared<const Problem>(whole_->topology(), forms_, whole_->model(), wrinkle_free_,
+                                           pinned);
+  }
+
+  bool taken(std::shared_ptr<const Problem> problem, Solution other, const std::vector<bool>& released) {
     if (!less(other)) return false;
     best_ = std::move(other);
     problem_ = std::move(problem);
@@ -183,7 +211,13 @@ class Search {
     return true;
   }
 
-  // More released: what is dead; first only what waves go round.
+  bool take(const std::vector<bool>& released) {
+    const auto problem = releasing(released);
+    return taken(problem, run(*problem, continued_waves(*problem, *problem_, best_.waves), brief()),
+                 released);
+  }
+
+  // More released: what is dead.
   bool widened(const std::vector<bool>& dead) {
     if (std::find(dead.begin(), dead.end(), true) == dead.end()) return false;
     std::vector<bool> all = released_;

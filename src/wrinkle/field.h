@@ -39,9 +39,9 @@ struct Field {
 };
 
 // Faces whose corners all come out without amplitude are released, as section 5.1 would have it, if that
-// lowers the energy: first all, then those alone that waves have to go round; what is compressed of them is
-// won back, as long as that lowers the energy. Dead faces that want waves are given some, too: a = 0 is
-// stationary whatever the phase.
+// lowers the energy; what is compressed of them is won back, as long as that lowers it again. Vertices round
+// which waves turn (singularities.h) have a face released before any is dead. Dead faces that want waves are
+// given some, too: a = 0 is stationary whatever the phase.
 Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped = {},
                   const FieldOptions& options = {});

@@ -106,6 +106,63 @@ TEST(WrinkleSearch, ReportsEveryStartAndTakesTheLowest) {
   EXPECT_NEAR(field.trace.back().energy / field.real.energy, 1, 1e-12);
 }
 
+// A ball squeezed along its circles of latitude: waves have to close round each, and those that suit the
+// equator are too dense by far near the poles. Released once and for all, whole belts stay flat.
+TEST(WrinkleSearch, ABallHasNoFlatBelts) {
+  constexpr int around = 32, along = 16;
+  std::vector<shell::Face> faces;
+  shell::Positions place(3, around * (along - 1) + 2);
+  const auto vertex = [&](int i, int j) {
+    if (j == 0) return static_cast<std::uint32_t>(around * (along - 1));
+    if (j == along) return static_cast<std::uint32_t>(around * (along - 1) + 1);
+    return static_cast<std::uint32_t>((j - 1) * around + i % around);
+  };
+  for (int j = 0; j <= along; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const double polar = pi * j / along, angle = 2 * pi * i / around;
+      place.col(vertex(i, j)) =
+          Vector3d(std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar));
+      if (j == along) continue;
+      if (j > 0) faces.push_back({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)});
+      if (j < along - 1) faces.push_back({vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
+    }
+  }
+  const auto rest = shell::rest_faces(place, faces);
+  const double nu = 0.3, tension = 0.005, compression = 0.02;
+  std::vector<FaceForms> forms;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    // The circle of latitude in the rest face's frame, whose first axis is its first edge.
+    const Vector3d e = (place.col(faces[f][1]) - place.col(faces[f][0])).normalized(),
+                   n = e.cross(Vector3d(place.col(faces[f][2]) - place.col(faces[f][0]))).normalized(),
+                   centre = (place.col(faces[f][0]) + place.col(faces[f][1]) + place.col(faces[f][2])) / 3;
+    const Vector3d round = Vector3d(-centre.y(), centre.x(), 0).normalized();
+    const Vector2d w = Vector2d(round.dot(e), round.dot(n.cross(e))).normalized(), c(-w.y(), w.x());
+    forms.push_back({rest[f], tension * c * c.transpose() - (nu * tension + compression) * w * w.transpose(),
+                     Eigen::Matrix2d::Identity()});
+  }
+  const shell::Topology topology = shell::build_topology(faces, static_cast<std::size_t>(place.cols()));
+  const Model model = test::model(1e6, nu, 2e-3);
+  const std::vector<bool> none(faces.size(), false);
+  const Problem problem(topology, forms, model, none);
+  const Field field = solve_field(topology, forms, model, none);
+  EXPECT_TRUE(field.real.converged && field.whole.converged) << field.real.reason;
+  // No face can do better than in waves of its own, which is what all would cost if nothing had to close.
+  double own = 0;
+  const auto local = local_waves(forms, topology, problem.complex().live, problem.pinned(), model);
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    LocalVector x;
+    x.head<3>().setConstant(best_amplitude(forms[f], model, local[f], local[f].gradient));
+    x.tail<2>() = local[f].gradient;
+    own += FaceEnergy(forms[f], model).value(x);
+  }
+  const double excess = field.real.energy - problem.relaxed_energy();
+  EXPECT_GT(excess, own * 0.999);
+  EXPECT_LT(excess, 1.5 * own);
+  // Waves between 30 degrees of the poles everywhere.
+  for (int j = along / 6 + 1; j < along - along / 6; ++j)
+    for (int i = 0; i < around; ++i) EXPECT_GT(field.real.waves.amplitude[vertex(i, j)], 0) << i << " " << j;
+}
+
 // Flat, free all round, compressed both ways: the longer the waves the better, and nothing says how long. One
 // wave over the sheet is the most that is taken.
 TEST(WrinkleSearch, BothWaysCompressedIsBounded) {
