@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "benchmark/subject.h"
+#include "benchmark/effort.h"
 #include "config/scene_file.h"
 #include "gpu/timer.h"
 #include "pipeline.h"
@@ -29,9 +29,7 @@ int frame_count(const pipeline::LoadedScene& scene, const Effort& effort) {
 }  // namespace
 
 SceneSettings film_settings(const std::string& scene, const Effort& effort, int samples_a_pixel) {
-  SceneSettings settings = load_scene(test::asset(scene + ".toml").string());
-  settings.output.width = effort.width;
-  settings.output.height = effort.height;
+  SceneSettings settings = scene_settings(scene, effort);
   settings.output.samples = samples_a_pixel;
   return settings;
 }

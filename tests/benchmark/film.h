@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "benchmark/measure.h"
+#include "benchmark/effort.h"
 #include "config/settings.h"
 
 namespace plisse::benchmark {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/measure.h"
+#include "benchmark/effort.h"
 
 namespace plisse::benchmark {
 

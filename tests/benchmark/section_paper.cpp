@@ -1,9 +1,9 @@
 // Tables 1 and 2 of Loviscach 2006: Pentium 4 at 2.5 GHz, GeForce 6800 GT, 1280×1024.
 #include <algorithm>
 
+#include "benchmark/effort.h"
 #include "benchmark/film.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 
 namespace plisse::benchmark {
 namespace {

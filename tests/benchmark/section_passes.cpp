@@ -1,7 +1,7 @@
 #include <vector>
 
+#include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 
 namespace plisse::benchmark {
 

@@ -5,9 +5,9 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/log.h"
-#include "benchmark/plain_cpp.h"
+#include "bench/plain_cpp.h"
+#include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 
 namespace plisse::benchmark {
 namespace {

@@ -1,7 +1,7 @@
 #include "benchmark/plain_png.h"
 
+#include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 #include "io/png.h"
 
 namespace plisse::benchmark {

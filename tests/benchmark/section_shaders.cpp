@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 
 namespace plisse::benchmark {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "benchmark/subject.h"
 
 namespace plisse::benchmark {
 

@@ -4,16 +4,11 @@
 
 #include <string>
 
-#include "benchmark/measure.h"
+#include "bench/machine.h"
+#include "benchmark/effort.h"
 #include "benchmark/report.h"
-#include "gpu/context.h"
 
 namespace plisse::benchmark {
-
-// CPU time says what a software renderer costs; on a GPU it is only the driver's, and the wall clock counts.
-inline Clock fair_clock(const gpu::Info& gl) {
-  return gl.software ? Clock::cpu : Clock::wall;
-}
 
 void measure_passes(Report& report, const Effort& effort);     // skin, crush, relax, render
 void measure_shading(Report& report, const Effort& effort);    // the wave shader against plain textured Phong

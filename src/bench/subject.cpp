@@ -1,4 +1,4 @@
-#include "benchmark/subject.h"
+#include "bench/subject.h"
 
 #include <epoxy/gl.h>
 
@@ -6,11 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "config/scene_file.h"
-#include "pipeline/loaded_scene.h"
-#include "support/files.h"
-
-namespace plisse::benchmark {
+namespace plisse::bench {
 namespace {
 
 constexpr int bones = 4;
@@ -35,11 +31,7 @@ std::vector<glm::dmat4> bent(double squeeze, double angle, const passes::ModelUn
 
 }  // namespace
 
-Subject scene_subject(const std::string& name, const Effort& effort) {
-  SceneSettings settings = load_scene(test::asset(name + ".toml").string());
-  settings.output.width = effort.width;
-  settings.output.height = effort.height;
-  pipeline::LoadedScene scene(settings);
+Subject subject_of(pipeline::LoadedScene& scene, const std::string& name) {
   Subject subject;
   subject.name = name;
   subject.surface = scene.surface();
@@ -56,13 +48,12 @@ Subject scene_subject(const std::string& name, const Effort& effort) {
   subject.parts = scene.draw_parts();
   subject.textures = scene.texture_levels();
   subject.view = scene.view(1);
-  subject.dead_zone = settings.wrinkles.dead_zone;
+  subject.dead_zone = scene.settings.wrinkles.dead_zone;
   return subject;
 }
 
-Subject grid_subject(const Effort& effort) {
-  const auto side =
-      static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(effort.grid_vertices))));
+Subject grid_subject(std::size_t vertices, int width, int height) {
+  const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(vertices))));
   const double spacing = 1.0 / (side - 1);
   Subject subject;
   subject.name = "grid";
@@ -107,9 +98,8 @@ Subject grid_subject(const Effort& effort) {
 
   passes::View& view = subject.view;
   view.eye = subject.units.world({0.4, 0.5, 2.4});
-  view.view_projection =
-      glm::perspective(glm::radians(30.0), static_cast<double>(effort.width) / effort.height, 0.2, 4.0) *
-      glm::lookAt(view.eye, view.eye + view.forward, view.up);
+  view.view_projection = glm::perspective(glm::radians(30.0), static_cast<double>(width) / height, 0.2, 4.0) *
+                         glm::lookAt(view.eye, view.eye + view.forward, view.up);
   view.lights = {passes::DirectionalLight{glm::normalize(glm::dvec3(-1, 0.8, 0.7)), glm::dvec3(2.4)},
                  passes::DirectionalLight{glm::normalize(glm::dvec3(1, 0.3, 0.8)), glm::dvec3(0.6)},
                  passes::DirectionalLight{glm::normalize(glm::dvec3(0.3, 0.6, -1)), glm::dvec3(0.8)}};
@@ -182,4 +172,4 @@ void finish() {
   glFinish();
 }
 
-}  // namespace plisse::benchmark
+}  // namespace plisse::bench

@@ -1,11 +1,11 @@
-#include "benchmark/measure.h"
+#include "bench/timing.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 
-namespace plisse::benchmark {
+namespace plisse::bench {
 
 Sample now() {
   timespec cpu{};
@@ -37,17 +37,17 @@ std::vector<double> Samples::seconds(Clock clock) const {
   return values;
 }
 
-std::vector<Samples> take_turns(const std::vector<Case>& cases, const Effort& effort) {
+std::vector<Samples> take_turns(const std::vector<Case>& cases, const Turns& turns) {
   std::vector<int> repeats;
   for (const Case& item : cases) {
     item.run();
     const Sample begin = now();
     item.run();
     const double once = std::max((now() - begin).wall_s, 1e-7);
-    repeats.push_back(std::clamp(static_cast<int>(std::lround(effort.seconds / once)), 1, 10000));
+    repeats.push_back(std::clamp(static_cast<int>(std::lround(turns.seconds / once)), 1, 10000));
   }
   std::vector<Samples> samples(cases.size());
-  for (int i = 0; i < effort.samples; ++i) {
+  for (int i = 0; i < turns.samples; ++i) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
       const Sample begin = now();
       for (int r = 0; r < repeats[c]; ++r) cases[c].run();
@@ -67,4 +67,4 @@ Distribution ratio(const Samples& numerator, Clock clock, const Samples& denomin
   return distribution(ratios);
 }
 
-}  // namespace plisse::benchmark
+}  // namespace plisse::bench

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/measure.h"
 #include "gpu/target.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
@@ -16,8 +15,9 @@
 #include "passes/render.h"
 #include "passes/skin.h"
 #include "passes/surface_buffers.h"
+#include "pipeline/loaded_scene.h"
 
-namespace plisse::benchmark {
+namespace plisse::bench {
 
 struct Subject {
   std::string name;
@@ -36,11 +36,11 @@ struct Subject {
   double vertices() const { return static_cast<double>(surface.vertex_count()); }
 };
 
-// A scene of assets/ ("shirt") at the effort's picture size.
-Subject scene_subject(const std::string& name, const Effort& effort);
+// What a scene's skeleton makes of it, frame by frame.
+Subject subject_of(pipeline::LoadedScene& scene, const std::string& name);
 // A jittered grid in the unit square of about so many vertices, squeezed to 75 % along x and bent by four
-// bones.
-Subject grid_subject(const Effort& effort);
+// bones; its view is for pictures of this size.
+Subject grid_subject(std::size_t vertices, int width, int height);
 
 // A subject on the GPU, stepped through its frames. Needs a current context.
 class Rig {
@@ -80,4 +80,4 @@ std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffer
 
 void finish();  // glFinish
 
-}  // namespace plisse::benchmark
+}  // namespace plisse::bench

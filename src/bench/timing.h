@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace plisse::benchmark {
+namespace plisse::bench {
 
 enum class Clock {
   wall,
@@ -24,12 +24,9 @@ struct Case {
   std::function<void()> run;  // returns when all of its work is done: on a GPU that takes a glFinish
 };
 
-struct Effort {
+struct Turns {
   int samples = 15;       // of each case
   double seconds = 0.02;  // a sample repeats its case until it lasts about this long
-  int frames = 0;         // of a clip, for whole frames; 0: all
-  int width = 1280, height = 1024;
-  std::size_t grid_vertices = 100000;
 };
 
 // Median and quartiles.
@@ -50,8 +47,8 @@ class Samples {
 };
 
 // Runs every case once unmeasured (drivers compile at the first run), then all of them in turn,
-// `effort.samples` times.
-std::vector<Samples> take_turns(const std::vector<Case>& cases, const Effort& effort);
+// `turns.samples` times.
+std::vector<Samples> take_turns(const std::vector<Case>& cases, const Turns& turns);
 
 // Of the pairs of samples that were taken one after the other.
 Distribution ratio(const Samples& numerator, Clock clock, const Samples& denominator,
@@ -63,4 +60,4 @@ inline Distribution ratio(const Samples& numerator, const Samples& denominator, 
 Sample now();
 Sample operator-(const Sample& end, const Sample& begin);
 
-}  // namespace plisse::benchmark
+}  // namespace plisse::bench
