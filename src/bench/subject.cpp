@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "pipeline/stepper.h"
+
 namespace plisse::bench {
 namespace {
 
@@ -109,12 +111,30 @@ Subject grid_subject(std::size_t vertices, int width, int height) {
 Rig::Rig(const Subject& subject, bool software, const std::string& shader_folder)
     : subject_(subject),
       software_(software),
-      surface_(subject.surface, subject.rest, subject.waves, subject.units, 1),
+      surface_(fresh_buffers(subject)),
       skin_(subject.palettes.front().size(), subject.surface.target_count, shader_folder),
       crush_(shader_folder),
       relax_(shader_folder),
       no_morphs_(subject.surface.target_count, 0.0) {
   step();
+}
+
+passes::SurfaceBuffers Rig::fresh_buffers(const Subject& subject) {
+  return {subject.surface, subject.rest, subject.waves, subject.units, 1};
+}
+
+void Rig::restart() {
+  surface_ = fresh_buffers(subject_);
+  frame_ = 0;
+}
+
+void Rig::advance(const RelaxSettings& settings) {
+  skin();
+  if (frame_ % static_cast<std::size_t>(settings.interval) == 0) {
+    crush_.run(surface_, subject_.dead_zone, settings.mode == RelaxMode::descent);
+    relax_.run(surface_, pipeline::relax_options(settings));
+  }
+  frame_ = (frame_ + 1) % subject_.palettes.size();
 }
 
 void Rig::skin() {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "config/settings.h"
 #include "gpu/target.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
@@ -55,11 +56,16 @@ class Rig {
   // To the middle of the clip, where the project's models are wrinkled most.
   void step_to_middle();
   void step_through_clip();
+  // Back before the clip's first frame, with nothing remembered.
+  void restart();
+  // The next frame under these settings: crush and relax every n-th frame alone.
+  void advance(const RelaxSettings& settings);
 
   passes::SurfaceBuffers& surface() { return surface_; }
   bool software() const { return software_; }
 
  private:
+  static passes::SurfaceBuffers fresh_buffers(const Subject& subject);
   const Subject& subject_;
   bool software_;
   passes::SurfaceBuffers surface_;

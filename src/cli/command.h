@@ -22,6 +22,7 @@ Command add_measure(CLI::App& program);
 Command add_bake(CLI::App& program);
 Command add_drape(CLI::App& program);
 Command add_wrinkle(CLI::App& program);
+Command add_bench(CLI::App& program);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

@@ -57,10 +57,10 @@ int run(int argc, const char* const* argv) {
   program.allow_extras();
   program.footer(fmt::format("\nplisse COMMAND --help tells more.\n{}", exit_codes));
 
-  const std::vector<Command> commands = {add_render(program), add_info(program),   add_init(program),
-                                         add_verify(program), add_size(program),   add_paint(program),
-                                         add_export(program), add_bake(program),   add_measure(program),
-                                         add_drape(program),  add_wrinkle(program)};
+  const std::vector<Command> commands = {add_render(program), add_info(program),    add_init(program),
+                                         add_verify(program), add_size(program),    add_paint(program),
+                                         add_export(program), add_bake(program),    add_measure(program),
+                                         add_drape(program),  add_wrinkle(program), add_bench(program)};
   std::vector<std::string> names;
   for (const Command& command : commands) {
     command.app->allow_extras();

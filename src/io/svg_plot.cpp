@@ -20,29 +20,6 @@ constexpr double text_size = 12, letter = 0.56 * text_size;  // mean advance of 
 constexpr double mark = 5;                                   // half a symbol's size
 constexpr double zero_strip = 28;                            // below a logarithmic axis, for what is 0
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string tick_text(double value, const PlotAxis& axis) {
   if (!axis.seconds) {
     const double size = std::abs(value);
@@ -191,7 +168,7 @@ class Labels {
     }
     taken_.push_back(best);
     return fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", best.x,
-                       best.y + 0.8 * height, escaped(text));
+                       best.y + 0.8 * height, xml_text(text));
   }
 
  private:
@@ -213,6 +190,29 @@ void check(const Plot& plot) {
 }
 
 }  // namespace
+
+std::string xml_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
 
 std::string svg_plot(const Plot& plot) {
   check(plot);
@@ -240,7 +240,7 @@ std::string svg_plot(const Plot& plot) {
       ".grid{{stroke:#e3e3e3}}.axis{{stroke:#777}}</style>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
       "<text class=\"title\" x=\"{4}\" y=\"26\">{2}</text>\n",
-      plot.width, plot.height, escaped(plot.title), text_size, left);
+      plot.width, plot.height, xml_text(plot.title), text_size, left);
 
   const double under = area.y + area.height;
   for (const double tick : x.ticks()) {
@@ -264,10 +264,10 @@ std::string svg_plot(const Plot& plot) {
   svg += fmt::format("<path class=\"axis\" fill=\"none\" d=\"M{} {}V{}H{}\"/>\n", area.x, area.y, under,
                      area.x + area.width);
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
-                     area.x + area.width / 2, plot.height - 16, escaped(plot.x.label));
+                     area.x + area.width / 2, plot.height - 16, xml_text(plot.x.label));
   svg +=
       fmt::format("<text transform=\"translate(22 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                  area.y + area.height / 2, escaped(plot.y.label));
+                  area.y + area.height / 2, xml_text(plot.y.label));
 
   // The front first, so that symbols lie over it.
   std::vector<PlotPoint> front;
@@ -320,15 +320,15 @@ std::string svg_plot(const Plot& plot) {
     double line = area.y + 8;
     for (std::size_t s = 0; s < plot.series.size(); ++s, line += 22) {
       svg += symbol(s, at, line);
-      svg +=
-          fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", at + 14, line + 4, escaped(plot.series[s].name));
+      svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", at + 14, line + 4,
+                         xml_text(plot.series[s].name));
     }
     if (!plot.mark_name.empty()) {
       svg += fmt::format(
           "<path {} d=\"M{} {}h20\"/><circle cx=\"{}\" cy=\"{}\" r=\"7\" fill=\"#fff\" stroke=\"#222\" "
           "stroke-width=\"1.4\"/>",
           front_style, at - 10, line + 2, at, line + 2);
-      svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", at + 14, line + 6, escaped(plot.mark_name));
+      svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", at + 14, line + 6, xml_text(plot.mark_name));
     }
   }
   return svg + "</svg>\n";

@@ -38,4 +38,7 @@ struct Plot {
 // A document of its own, on white. Throws Error(no_output) where there is no point or a value is not finite.
 std::string svg_plot(const Plot& plot);
 
+// A text as XML and HTML have it.
+std::string xml_text(const std::string& text);
+
 }  // namespace plisse::io

@@ -1,0 +1,34 @@
+// A built-in scene solved from flat cloth to a wrinkle field, and the waves that a picture of it shows.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "bench/suite.h"
+#include "mesh/measure_waves.h"
+#include "pipeline/drape.h"
+#include "pipeline/wrinkle.h"
+
+namespace plisse::bench {
+
+struct Solved {
+  WrinkleScene base;
+  WrinkleReport field;
+  double base_s = 0, field_s = 0;               // wall clock
+  std::filesystem::path base_file, field_file;  // under the report's folder
+
+  std::size_t vertices() const { return base.surface.topology.vertex_count; }
+};
+
+// About so many vertices (0: the example's own number). Throws Error where the base surface does not
+// converge.
+Solved solve(const Setup& setup, const std::string& example, int vertices);
+
+// The base surface as a scene of its own at this size; `field`: none, or the file.
+SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field, FieldUse use,
+                         int width, int height);
+
+std::vector<glm::dvec3> points(const shell::Positions& positions);
+std::vector<std::uint32_t> corners(const std::vector<shell::Face>& faces);
+
+}  // namespace plisse::bench

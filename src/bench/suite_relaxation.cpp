@@ -1,0 +1,170 @@
+// How many rounds of which relaxation, and how often: misfit of neighbouring waves, and the picture's
+// distance from that of phases that have converged in every frame.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "bench/film.h"
+#include "bench/suite.h"
+#include "io/flip.h"
+#include "reference/relax.h"
+
+namespace plisse::bench {
+namespace {
+
+struct Setting {
+  std::string series, label;
+  RelaxSettings relax;
+};
+
+RelaxSettings relaxation(RelaxMode mode, int rounds, double epsilon = 13.2, int interval = 1) {
+  RelaxSettings settings;
+  settings.mode = mode;
+  settings.rounds = rounds;
+  settings.epsilon = epsilon;
+  settings.interval = interval;
+  return settings;
+}
+
+std::vector<Setting> settings_to_try() {
+  using enum RelaxMode;
+  std::vector<Setting> settings;
+  for (const int rounds : {1, 2, 4, 16, 64})
+    settings.push_back(
+        {"smooth", fmt::format("{} round{}", rounds, rounds > 1 ? "s" : ""), relaxation(smooth, rounds)});
+  for (const int rounds : {1, 4, 16, 64})
+    settings.push_back(
+        {"descent", fmt::format("{} round{}", rounds, rounds > 1 ? "s" : ""), relaxation(descent, rounds)});
+  for (const double epsilon : {4.0, 8.0, 18.0})
+    settings.push_back({"smooth, other ε", fmt::format("ε {}", epsilon), relaxation(smooth, 1, epsilon)});
+  for (const int interval : {2, 4, 8})
+    settings.push_back(
+        {"smooth, interval", fmt::format("every {}", interval), relaxation(smooth, 1, 13.2, interval)});
+  return settings;
+}
+
+constexpr int converged_rounds = 256;  // a frame; the misfit falls by less than 1e-3 of itself beyond
+
+// Frames that are looked at, 0-based and ascending; the last one ends the run.
+std::vector<int> looks(std::size_t clip, int most) {
+  const int last = std::min(static_cast<int>(clip), most) - 1;
+  return {last / 3, 2 * last / 3, last};
+}
+
+struct Look {
+  io::Image picture;
+  double misfit = 0;  // E[d²], turns²
+};
+
+class Clip {
+ public:
+  Clip(Film& film, std::vector<int> frames) : film_(film), frames_(std::move(frames)) {}
+
+  void run(const RelaxSettings& settings) const {
+    film_.rig.restart();
+    for (int frame = 0; frame <= frames_.back(); ++frame) film_.rig.advance(settings);
+    finish();
+  }
+  std::vector<Look> look(const RelaxSettings& settings) const {
+    std::vector<Look> result;
+    film_.rig.restart();
+    for (int frame = 0; frame <= frames_.back(); ++frame) {
+      film_.rig.advance(settings);
+      if (frame != frames_[result.size()]) continue;
+      const auto field = pipeline::read_snapshot(film_.rig.surface()).field();
+      result.push_back({film_.picture(), reference::misfit(film_.reference.topology, field)});
+    }
+    return result;
+  }
+  // Of each look, where the surface is.
+  std::vector<std::vector<std::uint8_t>> masks() const {
+    std::vector<std::vector<std::uint8_t>> result;
+    film_.rig.restart();
+    for (int frame = 0; frame <= frames_.back(); ++frame) {
+      film_.rig.advance({});
+      if (frame == frames_[result.size()]) result.push_back(film_.covered());
+    }
+    return result;
+  }
+  int frames() const { return frames_.back() + 1; }
+
+ private:
+  Film& film_;
+  std::vector<int> frames_;
+};
+
+void measure_scene(const Setup& setup, const std::string& name, SuiteReport& report) {
+  const gpu::Context context(setup.device);
+  const Clock clock = fair_clock(context.info());
+  const int width = setup.pick(64, 480, 640), height = setup.pick(52, 384, 512);
+  Film film(setup.scene(name, width, height), name, context.info().software);
+  const Clip clip(film, looks(film.subject.palettes.size(), setup.pick(4, 37, 37)));
+  const auto masks = clip.masks();
+  std::map<RelaxMode, std::vector<Look>> truth;
+  for (const RelaxMode mode : {RelaxMode::smooth, RelaxMode::descent})
+    truth[mode] = clip.look(relaxation(mode, setup.pick(8, converged_rounds, converged_rounds)));
+  setup.save(report, fmt::format("relaxation_{}_converged", name), truth[RelaxMode::smooth].back().picture,
+             fmt::format("{}: smooth, converged", name));
+
+  const auto settings = settings_to_try();
+  std::vector<Case> cases;
+  for (const Setting& setting : settings)
+    cases.push_back({setting.label, [&clip, relax = setting.relax] { clip.run(relax); }});
+  const auto samples = take_turns(cases, {setup.turns().samples, 0});
+
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const Setting& setting = settings[i];
+    const auto looks = clip.look(setting.relax);
+    const auto& converged = truth[setting.relax.mode];
+    double misfit = 0, image = 0;
+    for (std::size_t l = 0; l < looks.size(); ++l) {
+      misfit += looks[l].misfit / static_cast<double>(looks.size());
+      image +=
+          io::flip(converged[l].picture, looks[l].picture, masks[l]).mean / static_cast<double>(looks.size());
+    }
+    Row row{"relaxation",
+            name,
+            setting.series,
+            setting.label,
+            samples[i].of(clock).scaled(1.0 / clip.frames()),
+            clock,
+            "a frame's skin, crush and relax"};
+    row.error_of = "phases";
+    row.error = 360 * std::sqrt(misfit);
+    row.error_unit = "degrees, root mean square over edges";
+    row.truth = "0: neighbouring waves meet";
+    report.rows.push_back(row);
+    row.error_of = "picture";
+    row.error = image;
+    row.error_unit = "mean FLIP over the surface";
+    row.truth = fmt::format("the same mode with {} rounds in every frame", converged_rounds);
+    report.rows.push_back(row);
+    const bool extreme =
+        setting.relax.rounds == 1 && (setting.relax.interval == 8 || setting.series == "descent");
+    if (extreme || i == 0)
+      setup.save(report, fmt::format("relaxation_{}_{}", name, i), looks.back().picture,
+                 fmt::format("{}: {}, FLIP {:.3f}", name, row.setting(), image));
+  }
+}
+
+}  // namespace
+
+SuiteReport measure_relaxation(const Setup& setup) {
+  SuiteReport report;
+  report.name = "relaxation";
+  report.title = "Relaxation: mode, rounds, ε and interval";
+  report.note =
+      "The clip is stepped from its first frame to its deepest squeeze and looked at three times on the way. "
+      "Misfit is how "
+      "far the waves of neighbouring vertices are from meeting in the middle of their edge; the picture's "
+      "error is against "
+      "phases that had 256 rounds in every frame, of the same mode, since descent alone starts from random "
+      "phases and ends "
+      "in another pattern.";
+  measure_scene(setup, "sleeve", report);
+  if (setup.effort == Effort::full) measure_scene(setup, "model_b", report);
+  return report;
+}
+
+}  // namespace plisse::bench
