@@ -39,7 +39,7 @@ class Methods {
         report_(report),
         context_(setup.device),
         finest_(solve(setup, example, setup.pick(200, 2000, 4000))),
-        solved_(solve(setup, example, setup.pick(150, 500, 500))) {
+        solved_(solve(setup, example, coarse(setup))) {
     base_ = points(finest_.base.surface.positions);
     base_triangles_ = corners(finest_.base.surface.topology.faces);
   }
@@ -62,6 +62,7 @@ class Methods {
   std::size_t vertices() const { return solved_.vertices(); }
 
  private:
+  static int coarse(const Setup& setup) { return setup.pick(150, 500, 500); }
   SceneSettings still(const Solved& solved, FieldUse use) const {
     return still_life(solved.base_file, solved.field_file, use, width(), height());
   }
@@ -107,7 +108,7 @@ class Methods {
   // From the flat cloth to the base surface in two frames: what an animation without any solved field would
   // show.
   void passes_alone() {
-    const DrapeScene scene = drape_example(example, static_cast<int>(solved_.vertices()));
+    const DrapeScene scene = drape_example(example, coarse(setup_));
     DrapeFrame frame;
     frame.equilibrium.converged = true;
     const auto folder = setup_.folder / "solved";

@@ -92,12 +92,12 @@ SuiteReport measure_shading(const Setup& setup) {
   report.name = "shading";
   report.title = "Shading against displaced geometry";
   report.note = fmt::format(
-      "One frame of the sleeve's clip, its waves once as shading on the {}-fold mesh that they live on, and "
-      "as geometry of "
-      "1 to {} times as many triangles. The truth is geometry of {} times as many. Normals and pictures are "
-      "compared where "
-      "both show the surface. Geometry is moved on the CPU, all threads.",
-      1, 1 << (2 * (densest - 1)), 1 << (2 * densest));
+      "One frame of the sleeve's clip: its waves as shading on the coarse mesh that they live on, and as "
+      "geometry of 1 to {} "
+      "times as many triangles, moved on the CPU by all threads. The truth is geometry of {} times as many. "
+      "Normals and "
+      "pictures are compared where both show the surface.",
+      1 << (2 * (densest - 1)), 1 << (2 * densest));
 
   const gpu::Context context(setup.device);
   const Clock clock = fair_clock(context.info());

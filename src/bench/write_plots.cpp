@@ -34,7 +34,7 @@ std::vector<RowPlot> plots(const SuiteReport& suite) {
   std::vector<RowPlot> result;
   for (const Kind& kind : kinds) {
     io::Plot plot;
-    plot.title = fmt::format("{}: {}", kind.scene, kind.error_of);
+    plot.title = fmt::format("{}: time against error ({})", kind.scene, kind.error_of);
     plot.y.label = kind.error_unit;
     plot.mark_name = "front";
     std::size_t points = 0;

@@ -65,12 +65,13 @@ std::string report_markdown(const BenchReport& report) {
     text += fmt::format("\n## {}\n\n{}\n", suite.title, suite.note);
     for (const RowPlot& plot : plots(suite)) text += fmt::format("\n![{}]({})\n", plot.file, plot.file);
     text +=
-        "\n| scene | setting | time | quartiles | clock | error | unit | truth | front "
+        "\n| scene | setting | time | quartiles | clock, of | error | unit | truth | front "
         "|\n|---|---|---|---|---|---|---|---|---|\n";
     for (const Row& row : suite.rows) {
-      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.scene, row.setting(),
+      text += fmt::format("| {} | {} | {} | {} | {}, {} | {} | {} | {} | {} |\n", row.scene, row.setting(),
                           duration_text(row.seconds.median), spread_text(row.seconds), name_of(row.clock),
-                          error_text(row.error), row.error_unit, row.truth, row.on_front ? "●" : "");
+                          row.seconds_of, error_text(row.error), row.error_unit, row.truth,
+                          row.on_front ? "●" : "");
     }
   }
   return text;

@@ -143,7 +143,7 @@ class Labels {
     const double width = letter * static_cast<double>(letters(text)), height = text_size;
     Box best;
     double least = std::numeric_limits<double>::infinity();
-    const double gap = mark + 4;
+    const double gap = mark + 7;  // clear of a ring
     const std::array<std::array<double, 2>, 12> places = {{{gap, -height / 2},
                                                            {-gap - width, -height / 2},
                                                            {-width / 2, -gap - height},
@@ -236,7 +236,8 @@ std::string svg_plot(const Plot& plot) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "role=\"img\" aria-label=\"{2}\">\n"
       "<style>text{{font:{3}px 'Helvetica Neue',Arial,'Liberation Sans',sans-serif;fill:#222}}"
-      ".title{{font-size:15px;font-weight:600}}.label{{font-size:11.5px;fill:#333}}"
+      ".title{{font-size:15px;font-weight:600}}.label{{font-size:11.5px;fill:#333;stroke:#fff;stroke-width:"
+      "3px;paint-order:stroke}}"
       ".grid{{stroke:#e3e3e3}}.axis{{stroke:#777}}</style>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
       "<text class=\"title\" x=\"{4}\" y=\"26\">{2}</text>\n",

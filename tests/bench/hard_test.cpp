@@ -4,10 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <ostream>
 
 #include "support/opengl.h"
 
 namespace plisse::bench {
+
+// Else GoogleTest prints its bytes.
+void PrintTo(const HardCase& hard, std::ostream* out) {
+  *out << hard.must;
+}
+
 namespace {
 
 std::string test_name(const HardCase& hard) {
@@ -31,7 +38,7 @@ TEST_P(Hard, Holds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Hard, ::testing::ValuesIn(hard_cases()),
-                         [](const auto& info) { return test_name(info.param); });
+                         [](const auto& parameter) { return test_name(parameter.param); });
 
 TEST(HardCases, AreNamedApartAndSayWhatTheyMust) {
   for (const HardCase& a : hard_cases()) {
