@@ -57,7 +57,8 @@ TEST_F(Bench, TheShadersAreAsNearToTheReferenceAsVerifySays) {
                                   "--json", (folder_ / "report.json").string()});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   std::map<std::string, double> worst;
-  for (const auto& row : nlohmann::json::parse(read_text(folder_ / "report.json"))["rows"]) {
+  const auto json = nlohmann::json::parse(read_text(folder_ / "report.json"));
+  for (const auto& row : json["rows"]) {
     const std::string setting = row["setting"];
     if (!setting.starts_with("reference"))
       worst[setting] = row["error"];
