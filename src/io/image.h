@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 
@@ -19,5 +20,9 @@ inline constexpr int max_image_side = 16384;
 Image load_image(const std::filesystem::path& path);
 // `name` is for messages: "embedded texture 0 of fox.glb".
 Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name);
+
+// A picture that says how much: brightness times alpha at a place, 0…1, bilinear; v upward, repeated beyond
+// 0…1. Its values are taken as they are, not as sRGB.
+double amount_at(const Image& image, const glm::dvec2& uv);
 
 }  // namespace plisse::io

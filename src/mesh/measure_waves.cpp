@@ -6,10 +6,11 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "mesh/triangle_tree.h"
 
 namespace plisse {
 namespace {
@@ -249,28 +250,6 @@ std::vector<glm::dvec3> vertex_normals(const std::vector<glm::dvec3>& x,
   return normals;
 }
 
-// The nearest point of a triangle (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5), as weights.
-glm::dvec3 nearest(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
 }  // namespace
 
 MeshSpectrum measure_waves(const HeightField& field) {
@@ -365,35 +344,23 @@ HeightField height_over_base(const std::vector<glm::dvec3>& positions,
                              const std::vector<std::uint32_t>& triangles, const std::vector<glm::dvec3>& base,
                              const std::vector<std::uint32_t>& base_triangles) {
   const auto normals = vertex_normals(base, base_triangles);
-  struct Ball {
-    glm::dvec3 centre;
-    double radius;
-  };
-  std::vector<Ball> balls;
-  for (std::size_t t = 0; t + 2 < base_triangles.size(); t += 3) {
-    Ball ball{glm::dvec3(0), 0};
-    for (std::size_t c = 0; c < 3; ++c) ball.centre += at(base, base_triangles, t + c) / 3.0;
-    for (std::size_t c = 0; c < 3; ++c)
-      ball.radius = std::max(ball.radius, glm::distance(ball.centre, at(base, base_triangles, t + c)));
-    balls.push_back(ball);
-  }
+  Eigen::Matrix3Xd points(3, static_cast<Index>(base.size()));
+  for (std::size_t v = 0; v < base.size(); ++v)
+    points.col(static_cast<Index>(v)) = Eigen::Vector3d(base[v].x, base[v].y, base[v].z);
+  std::vector<TriangleTree::Triangle> faces;
+  for (std::size_t t = 0; t + 2 < base_triangles.size(); t += 3)
+    faces.push_back({base_triangles[t], base_triangles[t + 1], base_triangles[t + 2]});
+  const TriangleTree tree(std::move(points), std::move(faces));
   HeightField field{positions, std::vector<double>(positions.size(), 0.0), triangles, 0};
+  if (base_triangles.empty()) return field;
   tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
     const glm::dvec3 x = positions[i];
-    double least = INFINITY;
-    for (std::size_t t = 0; t < balls.size(); ++t) {
-      if (glm::distance(x, balls[t].centre) - balls[t].radius >= least) continue;
-      std::array<std::uint32_t, 3> id{};
-      for (std::size_t c = 0; c < 3; ++c) id[c] = base_triangles[3 * t + c];
-      const glm::dvec3 w = nearest(x, base[id[0]], base[id[1]], base[id[2]]);
-      const glm::dvec3 p = w.x * base[id[0]] + w.y * base[id[1]] + w.z * base[id[2]];
-      const double distance = glm::distance(x, p);
-      if (distance >= least) continue;
-      least = distance;
-      const glm::dvec3 n = w.x * normals[id[0]] + w.y * normals[id[1]] + w.z * normals[id[2]];
-      field.base[i] = p;
-      field.height[i] = glm::dot(x - p, n) < 0 ? -distance : distance;
-    }
+    const TriangleTree::Nearest near = tree.nearest({x.x, x.y, x.z});
+    glm::dvec3 n(0);
+    for (std::size_t c = 0; c < 3; ++c)
+      n += near.weights[static_cast<Index>(c)] * normals[tree.triangles()[near.triangle][c]];
+    field.base[i] = {near.point.x(), near.point.y(), near.point.z()};
+    field.height[i] = glm::dot(x - field.base[i], n) < 0 ? -near.distance : near.distance;
   });
   return field;
 }

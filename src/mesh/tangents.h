@@ -22,8 +22,8 @@ struct CornerTangent {
   double sign = 1;        // −1 where uv is mirrored
 };
 
-// Three corners a triangle in, three tangents out. Triangles around a vertex share their tangent, weighted by
-// their angles there, but for those that are mirrored against each other.
+// Three corners a triangle in, three tangents out. Triangles that follow each other round a vertex share
+// their tangent, weighted by their angles there, but for those that are mirrored against each other.
 std::vector<CornerTangent> mikktspace(const std::vector<TangentCorner>& corners);
 
 }  // namespace plisse

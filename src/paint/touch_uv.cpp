@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "base/colour.h"
 #include "base/error.h"
 #include "io/image.h"
+#include "io/import_place.h"
 #include "io/ply.h"
+#include "mesh/place_index.h"
 #include "mesh/weld.h"
 #include "paint/bias_file.h"
 #include "paint/touch.h"
@@ -29,23 +30,6 @@ std::vector<Touch> strongest(const std::map<std::uint32_t, Touch>& found) {
   std::vector<Touch> touches;
   for (const auto& [vertex, touch] : found) touches.push_back(touch);
   return touches;
-}
-
-// Brightness times alpha at a uv, bilinear, repeated beyond 0…1.
-double amount_at(const io::Image& image, const glm::dvec2& uv) {
-  const auto texel = [&](int x, int y) {
-    const auto wrapped = [](int i, int n) { return static_cast<std::size_t>(((i % n) + n) % n); };
-    const std::uint8_t* p =
-        &image.rgba[4 * (wrapped(y, image.height) * static_cast<std::size_t>(image.width) +
-                         wrapped(x, image.width))];
-    return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) / 255 * p[3] / 255;
-  };
-  const glm::dvec2 within = uv - glm::floor(uv);
-  const double x = within.x * image.width - 0.5, y = (1 - within.y) * image.height - 0.5;
-  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
-  const double s = x - left, t = y - top;
-  return glm::mix(glm::mix(texel(left, top), texel(left + 1, top), s),
-                  glm::mix(texel(left, top + 1), texel(left + 1, top + 1), s), t);
 }
 
 }  // namespace
@@ -85,7 +69,7 @@ std::vector<Touch> touched_by_image(const Canvas& canvas, const PaintStroke& str
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (!frames[i].valid()) continue;
     const RenderVertex& vertex = canvas.surface.render_vertices[i];
-    const double amount = amount_at(image, glm::dvec2(vertex.uv));
+    const double amount = io::amount_at(image, glm::dvec2(vertex.uv));
     if (!(amount > 0)) continue;
     Touch& touch = found.try_emplace(vertex.welded, Touch{vertex.welded, 0, {}}).first->second;
     if (amount > touch.amount)
@@ -110,30 +94,22 @@ std::vector<Touch> touched_by_colours(const Canvas& canvas, const PaintStroke& s
   const double full = channel && channel->type == Type::uint16                                        ? 65535
                       : channel && (channel->type == Type::float32 || channel->type == Type::float64) ? 1
                                                                                                       : 255;
-  // Sorted along x, so that each vertex of ours looks at few of theirs.
+  const glm::dmat4 upright = io::upright(stroke.up);
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; i < vertex->count; ++i)
+    places.emplace_back(upright * glm::dvec4(x[i], y[i], z[i], 1));
+  const PlaceIndex theirs(places);
   const double tolerance = 100 * weld_tolerance(canvas.surface.rest);
-  std::multimap<double, std::pair<glm::dvec3, double>> theirs;
-  for (std::size_t i = 0; i < vertex->count; ++i) {
-    glm::dvec3 at(x[i], y[i], z[i]);
-    if (stroke.up == "z") at = {at.x, at.z, -at.y};
-    if (stroke.up == "x") at = {-at.y, at.x, at.z};
-    theirs.emplace(at.x, std::pair(at, (0.2126 * red[i] + 0.7152 * green[i] + 0.0722 * blue[i]) / full));
-  }
   const auto fixed = fixed_directions(canvas, stroke);
   std::vector<Touch> touches;
   std::size_t missing = 0;
   for (std::uint32_t v = 0; v < canvas.surface.vertex_count(); ++v) {
-    const glm::dvec3 own = canvas.surface.rest[v];
-    double nearest = tolerance, amount = -1;
-    for (auto i = theirs.lower_bound(own.x - tolerance); i != theirs.end() && i->first <= own.x + tolerance;
-         ++i) {
-      const double distance = glm::distance(own, i->second.first);
-      if (distance <= nearest) {
-        nearest = distance;
-        amount = i->second.second;
-      }
+    const auto i = theirs.nearest(canvas.surface.rest[v], tolerance);
+    if (!i) {
+      ++missing;
+      continue;
     }
-    if (amount < 0) ++missing;
+    const double amount = (0.2126 * red[*i] + 0.7152 * green[*i] + 0.0722 * blue[*i]) / full;
     if (amount > 0) touches.push_back({v, std::min(amount, 1.0), fixed.empty() ? glm::dvec3(0) : fixed[v]});
   }
   if (missing > 0) {

@@ -43,13 +43,30 @@ TEST(Tangents, MirroredHalvesDoNotShareTheirCommonEdge) {
   EXPECT_NEAR(tangents[3].tangent.x, -1, 1e-12);
 }
 
+// uv = (|x|, |y|) round the origin: the quarters of positive orientation lie opposite each other and their
+// tangents point against each other; they only touch in the middle, where mikktspace.c keeps them apart.
+TEST(Tangents, QuartersMirroredTwiceDoNotCancel) {
+  const glm::dvec2 at[] = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  std::vector<TangentCorner> corners;
+  for (const std::uint32_t v : {0U, 1U, 2U, 0U, 2U, 3U, 0U, 3U, 4U, 0U, 4U, 1U})
+    corners.push_back({v, glm::dvec3(at[v], 0), {0, 0, 1}, glm::abs(at[v])});
+  const auto tangents = mikktspace(corners);
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const bool left = quarter == 1 || quarter == 2, below = quarter >= 2;
+    EXPECT_NEAR(tangents[3 * quarter].tangent.x, left ? -1 : 1, 1e-12) << quarter;
+    EXPECT_EQ(tangents[3 * quarter].sign, left != below ? -1 : 1) << quarter;
+  }
+}
+
 TEST(Tangents, AngleWeighsHowMuchATriangleCounts) {
-  // Round one vertex: a quarter turn whose u runs along x, an eighth whose u runs along y.
-  const glm::dvec3 n(0, 0, 1);
-  const std::vector<TangentCorner> corners{{0, {0, 0, 0}, n, {0, 0}}, {1, {1, 0, 0}, n, {1, 0}},
-                                           {2, {0, 1, 0}, n, {0, 1}}, {0, {0, 0, 0}, n, {0, 0}},
-                                           {3, {0, 1, 0}, n, {1, 0}}, {4, {-1, 1, 0}, n, {1, 1}}};
-  const glm::dvec3 expected = glm::normalize(glm::dvec3(std::numbers::pi / 2, std::numbers::pi / 4, 0));
+  // Round one vertex: a quarter turn whose u runs along x, then an eighth whose u runs along x + y.
+  const glm::dvec3 at[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
+  const glm::dvec2 uv[] = {{0, 0}, {1, 0}, {0, 1}, {-1, 2}};
+  std::vector<TangentCorner> corners;
+  for (const std::uint32_t v : {0U, 1U, 2U, 0U, 2U, 3U}) corners.push_back({v, at[v], {0, 0, 1}, uv[v]});
+  const double eighth = std::numbers::pi / 4;
+  const glm::dvec3 expected =
+      glm::normalize(2 * eighth * glm::dvec3(1, 0, 0) + eighth * glm::normalize(glm::dvec3(1, 1, 0)));
   EXPECT_NEAR(glm::distance(mikktspace(corners)[0].tangent, expected), 0, 1e-12);
 }
 

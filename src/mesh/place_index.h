@@ -1,0 +1,22 @@
+// Finds points by where they are: files of other programs name the same places in another order.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace plisse {
+
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(const std::vector<glm::dvec3>& points);
+  // The nearest of the points, if one is within `reach`; of equally near ones the first.
+  std::optional<std::uint32_t> nearest(const glm::dvec3& x, double reach) const;
+
+ private:
+  std::vector<std::pair<glm::dvec3, std::uint32_t>> along_x_;
+};
+
+}  // namespace plisse
