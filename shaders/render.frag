@@ -22,6 +22,7 @@ uniform bool has_alpha;
 layout(location = 0) out vec4 colour;
 #ifdef AOV
 uniform int aov;              // one of AOV_… of common/constants.glsl
+uniform float object;
 uniform vec3 view_forward;
 #endif
 
@@ -33,15 +34,15 @@ struct Wrinkle {
     float lost_slope;  // Σ w ½(2πh|κ|)² m (1 − fade²)
 };
 
-// f and f' of the three waves.
-void look_up(out vec3 f, out vec3 slope) {
+// f and f' of three waves at their phases, turns.
+void look_up(vec3 turns, out vec3 f, out vec3 slope) {
 #ifdef SINUSOID
     // cos and −sin of 2πx within half a turn, as polynomials of Chebyshev interpolation, good to 1e-6.
-    vec3 x = tau - floor(tau + 0.5), u = x * x;
+    vec3 x = turns - floor(turns + 0.5), u = x * x;
     f = 0.9999992 + u * (-19.7389782 + u * (64.9285878 + u * (-85.2708436 + u * (58.7869408 - u * 21.0654294))));
     slope = -x * (6.2831849 + u * (-41.3415883 + u * (81.5999136 + u * (-76.6141403 + u * (41.3413654 - u * 12.4688186)))));
 #else
-    vec3 place = tau + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
+    vec3 place = turns + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
     vec2 a = texture(profile, place.x).rg, b = texture(profile, place.y).rg, c = texture(profile, place.z).rg;
     f = vec3(a.x, b.x, c.x);
     slope = vec3(a.y, b.y, c.y);
@@ -120,13 +121,22 @@ Wrinkle wrinkle_at(vec3 b) {
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
     vec3 fade = 1.0 - smoothstep(0.25, 0.5, turns_per_pixel);
     vec3 h = heights.xyz * fade;
-    vec3 f, slope;
-    look_up(f, slope);
-    vec3 H = h * f;
+    vec3 f, slope, lost = 1.0 - fade * fade;
+    look_up(tau, f, slope);
+    vec3 H = h * f, climb = fade * slope;
+#ifdef FINE_WAVES
+    vec3 fine_fade = 1.0 - smoothstep(0.25, 0.5, FINE_WAVES * turns_per_pixel), fine_f, fine_slope;
+    look_up(FINE_WAVES * tau, fine_f, fine_slope);
+    H = COARSE_SHARE * H + FINE_SHARE * heights.xyz * fine_fade * fine_f;
+    climb = COARSE_SHARE * climb + FINE_SHARE * FINE_WAVES * fine_fade * fine_slope;
+    h = COARSE_SHARE * h + FINE_SHARE * heights.xyz * fine_fade;
+    lost = COARSE_SHARE * COARSE_SHARE * lost +
+           FINE_SHARE * FINE_SHARE * FINE_WAVES * FINE_WAVES * (1.0 - fine_fade * fine_fade);
+#endif
 
     Weights weights_here = weights_at(b);
     vec3 w = weights_here.w;
-    vec3 ws = w * fade * slope;
+    vec3 ws = w * climb;
     Wrinkle result;
     result.height = dot(w, H);
     result.gradient = ws.x * climb_a + ws.y * climb_b + ws.z * climb_c;
@@ -134,7 +144,7 @@ Wrinkle wrinkle_at(vec3 b) {
     result.gradient += blend_gradient(weights_here, b, H);
 #endif
     result.amplitude = dot(w, h);
-    result.lost_slope = dot(w, steepness.xyz * (1.0 - fade * fade));
+    result.lost_slope = dot(w, steepness.xyz * lost);
 #ifdef FIELD
     add_field(result, weights_here, b);
 #endif
@@ -214,6 +224,7 @@ void main() {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (aov == AOV_NORMAL) colour.rgb = N;
     if (aov == AOV_DEPTH) colour.rgb = vec3(-dot(to_eye, view_forward));
+    if (aov == AOV_OBJECT) colour.rgb = vec3(object);
 #ifdef DISPLACED
     if (aov == AOV_HEIGHT) colour.rgb = vec3(relief_here.x);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(relief_here.y);

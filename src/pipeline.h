@@ -30,7 +30,8 @@ struct RenderRequest {
   std::string state_file;         // empty: none
   bool displace = false;          // the waves as geometry in place of shading
   std::optional<int> levels;      // with displace: how often edges are halved; none: as the waves need it
-  std::vector<std::string> aovs;  // height, normal, amplitude, phase, direction, tension, depth
+  std::string outside;            // with displace: a body that the waves keep out of (pipeline/outside.h)
+  std::vector<std::string> aovs;  // of pipeline/aov.h
   double budget_ms = 0;           // from pose to picture in memory; 0: none
   double max_error = 0;           // that another round of relaxation may leave, radians; 0: none
   int device = -1;                // −1: first that works
@@ -54,6 +55,10 @@ struct RenderReport {
   GlInfo gl;
   std::size_t render_vertices = 0, welded_vertices = 0, triangles = 0;
   std::string timer;  // "cpu" | "gpu"
+  struct Object {
+    std::string mesh, material;
+  };
+  std::vector<Object> objects;  // in the order in which the AOV `object` counts them, from 1
   std::vector<FrameReport> frames;
   double wavelength_m = 0;
   double fps = 0, wall_s = 0;  // frames that were drawn, by all the time it took
@@ -125,6 +130,7 @@ struct ExportRequest {
   SceneSettings scene;
   std::string output;         // mesh_####.ply|obj|glb, or CACHE.pc2|mdd
   std::optional<int> levels;  // how often edges are halved; none: as the waves need it
+  std::string outside;        // a body that the waves keep out of; empty: none
   int device = -1;
   std::string shader_folder;
 };
@@ -161,7 +167,10 @@ struct BakeReport {
     int frame = 0;
   };
   std::vector<Output> outputs;
-  double scale_m = 0;                        // the height of white in height's PNG, minus that of black
+  double scale_m = 0;  // the height of white in height's PNG, minus that of black
+  // The square of uv that the maps cover: from `corner` on, `side` long; (0, 0) and 1 but for repeating uv.
+  glm::dvec2 corner{0};
+  int side = 1;
   std::size_t covered = 0, overlapping = 0;  // texels
   bool interrupted = false;
   double wall_s = 0;
@@ -169,7 +178,7 @@ struct BakeReport {
 
 // The wrinkles of each frame over the uv of those parts that wrinkle: heights along the posed mesh's normals
 // (EXR in metres, and a PNG to look at), and normals in its MikkTSpace basis. Throws Error(bad_input) where
-// uv is missing or leaves 0…1; islands that overlap are a warning.
+// uv is missing or reaches over more than most_tiles; islands that overlap are a warning.
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame);
 
 struct MeasureRequest {

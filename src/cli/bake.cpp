@@ -83,6 +83,7 @@ ordered_json to_json(const BakeReport& report) {
     outputs.push_back({{"path", output.path}, {"kind", output.kind}, {"frame", output.frame}});
   return {{"outputs", outputs},
           {"scale_m", report.scale_m},
+          {"uv", {{"corner", {report.corner.x, report.corner.y}}, {"side", report.side}}},
           {"covered", report.covered},
           {"overlapping", report.overlapping},
           {"interrupted", report.interrupted},

@@ -34,6 +34,10 @@ struct Arguments {
            described("Halve the mesh's edges this often; default: as often as the waves need. Allowed: "
                      "0 … 8."))
         ->type_name("N");
+    app.add_option("--outside", outside,
+                   described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
+                             "model of its own with one frame or as many"))
+        ->type_name("MESH|FILE");
     app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
   }
@@ -41,7 +45,7 @@ struct Arguments {
   SceneArguments scene;
   DeviceArguments device;
   CommonArguments common;
-  std::string output, levels, shaders;
+  std::string output, levels, outside, shaders;
 };
 
 ordered_json to_json(const ExportReport& report) {
@@ -71,6 +75,7 @@ int run_export(Arguments& arguments) {
   request.scene = arguments.scene.settings();
   request.output = arguments.output;
   if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
+  request.outside = arguments.outside;
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();

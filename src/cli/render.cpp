@@ -23,9 +23,11 @@ using nlohmann::ordered_json;
 
 struct Arguments {
   explicit Arguments(CLI::App& app) : scene(app), device(app), common(app) {
-    app.add_option("--aov", aovs,
-                   described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
-                             "phase, direction, tension, depth, or several with commas"))
+    app.add_option(
+           "--aov", aovs,
+           described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
+                     "phase, direction, tension, depth, object (its number), beauty (the picture in linear "
+                     "light), or several with commas"))
         ->type_name("NAMES")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -36,6 +38,10 @@ struct Arguments {
                    described("With --displace: halve the mesh's edges this often; default: as often as the "
                              "waves need. Allowed: 0 … 8."))
         ->type_name("N");
+    app.add_option("--outside", outside,
+                   described("With --displace: a body that the wrinkles keep out of, a mesh or material of "
+                             "the model, or a model of its own with one frame or as many"))
+        ->type_name("MESH|FILE");
     app.add_option(
            "--budget", budget,
            described("Keep a frame, from pose to picture, within so many milliseconds: rounds, interval "
@@ -69,6 +75,8 @@ struct Arguments {
       if (!displace) throw Error(ExitCode::bad_input, "--levels goes with --displace");
       request.levels = whole_number("--levels", levels, 0, most_levels);
     }
+    if (!outside.empty() && !displace) throw Error(ExitCode::bad_input, "--outside goes with --displace");
+    request.outside = outside;
     if (!budget.empty()) request.budget_ms = positive_number("--budget", budget);
     if (!max_error.empty()) request.max_error = positive_number("--max-error", max_error);
     request.device = device.device();
@@ -80,7 +88,7 @@ struct Arguments {
   DeviceArguments device;
   CommonArguments common;
   std::vector<std::string> aovs;
-  std::string state, shaders, levels, budget, max_error;
+  std::string state, shaders, levels, outside, budget, max_error;
   bool displace = false;
   bool skip_existing = false, overwrite = false;
 };
@@ -115,9 +123,13 @@ ordered_json to_json(const RenderReport& report) {
   for (const FrameReport& frame : report.frames) {
     if (was_reached(frame)) frames.push_back(to_json(frame));
   }
+  ordered_json objects = ordered_json::array();
+  for (const auto& object : report.objects)
+    objects.push_back({{"mesh", object.mesh}, {"material", object.material}});
   return {{"gl", cli::to_json(report.gl)},
           {"vertices", {{"render", report.render_vertices}, {"welded", report.welded_vertices}}},
           {"triangles", report.triangles},
+          {"objects", objects},
           {"wavelength_m", report.wavelength_m},
           {"timer", report.timer},
           {"frames", frames},

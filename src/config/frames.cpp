@@ -172,6 +172,11 @@ bool is_frame_pattern(const std::string& path) {
   return find_place(fs::path(path).filename().string()).has_value();
 }
 
+bool names_many_files(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return is_frame_pattern(path.string()) && !std::filesystem::exists(path, ignored);
+}
+
 void check_frame_pattern(const std::string& pattern) {
   const std::string name = fs::path(pattern).filename().string();
   const std::string extension = lower(fs::path(name).extension().string());

@@ -1,6 +1,7 @@
 // Which frames a selection picks, and the file each of them goes to.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ std::string numbered_path(const std::string& pattern, int frame);
 
 // Whether the last part of the path has a place for a frame's number.
 bool is_frame_pattern(const std::string& path);
+
+// The same of a file to read: a pattern, and not a file that is called so.
+bool names_many_files(const std::filesystem::path& path);
 
 // Throws Error(bad_input) where frame_path would give another image format than PNG.
 void check_frame_pattern(const std::string& pattern);

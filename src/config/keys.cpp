@@ -103,6 +103,18 @@ const std::vector<Key>& keys() {
 
       {"wrinkles", "wavelength", length(wrinkles(&WrinkleSettings::wavelength), {1e-9, 1e9, "from the mesh"}),
        "Length of a wave in the rest pose.", "--wavelength", "L"},
+      {"wrinkles", "wavelength_map", file_path(wrinkles(&WrinkleSettings::wavelength_map)),
+       "Wavelengths that vary over the cloth: a picture in uv, white where they are 'wavelength' and black "
+       "where they are 'wavelength_low'; or a PLY over the rest pose with x, y, z and wavelength for every "
+       "vertex, in "
+       "the model's unit."},
+      {"wrinkles", "wavelength_low",
+       length(wrinkles(&WrinkleSettings::wavelength_low), {1e-9, 1e9, "half the wavelength"}),
+       "Length of a wave where the picture is black."},
+      {"wrinkles", "fine", whole(wrinkles(&WrinkleSettings::fine), 0, 32),
+       "Finer wrinkles on the waves, so many to each of them; 0: none."},
+      {"wrinkles", "fine_share", number(wrinkles(&WrinkleSettings::fine_share), {0, 4}),
+       "How steep the finer wrinkles are, over the coarse ones; together they take the cloth's length."},
       {"wrinkles", "strength", number(wrinkles(&WrinkleSettings::strength), {0, 10}),
        "Factor on the height of all waves.", "--strength", "S"},
       {"wrinkles", "profile",
@@ -123,10 +135,13 @@ const std::vector<Key>& keys() {
        "A paint file (docs/paint.md), painted when the scene is loaded."},
       {"bias", "file", file_path(bias(&BiasSettings::file)),
        "What 'plisse paint' wrote: bias.ply, or the uv texture bias.png."},
-      {"bias", "field", file_path(bias(&BiasSettings::field)),
+      {"bias", "field", file_or_pattern(bias(&BiasSettings::field)),
        "A solved wrinkle field over the rest pose: a PLY with amplitude and phase, or "
        "NAME_amplitude_REST.txt with "
-       "NAME_phi_REST.txt and NAME_dphi_REST.txt beside it (then the model is their OBJ)."},
+       "NAME_phi_REST.txt and NAME_dphi_REST.txt beside it (then the model is their OBJ). A pattern names "
+       "one "
+       "for "
+       "every frame, over the surface of that frame; it goes with use = \"direct\"."},
       {"bias", "use",
        enumeration<FieldUse>(bias(&BiasSettings::use),
                              {{"bias", FieldUse::bias}, {"direct", FieldUse::direct}}),

@@ -388,6 +388,19 @@ Kind file_path(Member<fs::path> value) {
           [=](const SceneSettings& settings) { return quoted(read(value, settings).string()); }, true};
 }
 
+Kind file_or_pattern(Member<fs::path> value) {
+  Kind kind = file_path(value);
+  kind.allowed = "an existing file, or a pattern for one a frame (field_####.ply); empty: none";
+  kind.set = [=, one = kind.set](SceneSettings& settings, const toml::node& node, const fs::path& folder) {
+    const fs::path path = resolved(folder, text_of(node));
+    if (!names_many_files(path)) return one(settings, node, folder);
+    if (!is_there(path.has_parent_path() ? path.parent_path() : "."))
+      throw Problem{fmt::format("there is no folder '{}'", path.parent_path().string()), ""};
+    value(settings) = path;
+  };
+  return kind;
+}
+
 Kind rest_pose(Member<std::string> value) {
   return {"word or path", "auto, bind, frame:N with N from 1, or an existing file",
           [=](SceneSettings& settings, const toml::node& node, const fs::path& folder) {

@@ -82,6 +82,8 @@ Kind point(Member<glm::dvec3> value);
 
 Kind model_path(Member<std::filesystem::path> value);
 Kind file_path(Member<std::filesystem::path> value);  // empty: none
+Kind file_or_pattern(
+    Member<std::filesystem::path> value);  // likewise; a pattern's files are looked for later
 Kind rest_pose(Member<std::string> value);
 Kind word_or_file(Member<std::string> value, std::vector<std::string> words);
 // An existing file whose name ends in one of these; empty: none.

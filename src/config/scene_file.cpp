@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "config/complaints.h"
+#include "config/frames.h"
 #include "config/keys.h"
 #include "config/suggest.h"
 
@@ -103,6 +104,11 @@ void check_together(SceneSettings& scene, const Given& given, Complaints& compla
                      fmt::format("key '{}': stands beside '{}'; take one of them out", key, bias));
     }
     bias = key;
+  }
+  if (names_many_files(scene.bias.field) && scene.bias.use != FieldUse::direct) {
+    complaints.add(given.at("bias.field"),
+                   "key 'field': one field a frame is carried as it is and needs use = \"direct\" beside it; "
+                   "what a field is as bias belongs to the one rest pose");
   }
   const auto *eye = at("eye"), *target = at("target");
   if (eye && !target) complaints.add(*eye, "key 'eye': needs 'target' beside it");
@@ -197,6 +203,7 @@ SceneSettings parse_scene(std::string_view text, const fs::path& file) {
     complaints.add(model_table, fmt::format("key 'path': missing in [model]; allowed: {}",
                                             config::find_key("model", "path")->kind.allowed));
   }
+  for (const auto& [key, position] : given) scene.places[key] = config::place_in(file, position);
   check_together(scene, given, complaints);
   complaints.throw_if_any();
   return scene;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,16 @@ struct ModelSettings {
 
 struct WrinkleSettings {
   double wavelength = 0;                   // metres of the rest pose; 0: from the mesh
+  std::filesystem::path wavelength_map;    // a picture in uv, or a PLY with a wavelength a vertex; or none
+  double wavelength_low = 0;               // metres: where the picture is black; 0: half the wavelength
   double strength = 1;                     // multiplies h
   std::string profile = "sinusoid";        // sinusoid | accordion | pencil | FILE
   std::vector<std::string> only, exclude;  // names of meshes or materials
   double dead_zone = 0.005;                // of 1 − r, ≥ 1e-4
   double irregularity = 0;                 // 0…1: seeded noise, ±25 % of wavelength and phase at 1
   std::uint32_t seed = 1;
+  int fine = 0;             // finer waves along each of these; 0: none
+  double fine_share = 0.5;  // their steepness over that of the coarse ones
 };
 
 enum class FieldUse { bias, direct };  // docs/passes.md, "Fields"
@@ -45,7 +50,8 @@ enum class FieldUse { bias, direct };  // docs/passes.md, "Fields"
 struct BiasSettings {
   std::filesystem::path paint;  // a paint file, whose strokes are painted when the scene is loaded
   std::filesystem::path file;   // what `plisse paint` wrote: PLY or uv texture
-  std::filesystem::path field;  // a solved wrinkle field: PLY, or the amplitudes of a set of text files
+  // A solved wrinkle field: PLY, or the amplitudes of a set of text files; or a pattern for one a frame.
+  std::filesystem::path field;
   FieldUse use = FieldUse::bias;
 };
 
@@ -103,7 +109,8 @@ struct OutputSettings {
 };
 
 struct SceneSettings {
-  std::filesystem::path file;  // the scene file, empty for a bare model
+  std::filesystem::path file;                 // the scene file, empty for a bare model
+  std::map<std::string, std::string> places;  // "bias.field" → "scene.toml:6:1", of the keys that stand in it
   ModelSettings model;
   WrinkleSettings wrinkles;
   BiasSettings bias;

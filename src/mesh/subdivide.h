@@ -37,6 +37,7 @@ Subdivision subdivide(const Surface& surface, int segments);
 // A subdivision moved off the surface, in whatever unit.
 struct DisplacedSurface {
   std::vector<glm::dvec3> positions;  // one a position
+  std::vector<glm::dvec3> base;       // where they were before
   std::vector<glm::dvec3> normals;    // one a normal, unit
   // One a position: by how much it was moved along the surface's normal, and by how much at most (both in the
   // unit of positions); what the groove it lies in leaves of the sky on the side of the normals and on the

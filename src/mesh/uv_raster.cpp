@@ -13,13 +13,19 @@ namespace {
 
 constexpr double rounding = 1e-6;  // of single-precision coordinates
 
-void check_inside(const Part& part, const glm::dvec2& uv) {
-  if (uv.x >= -rounding && uv.y >= -rounding && uv.x <= 1 + rounding && uv.y <= 1 + rounding) return;
-  throw Error(
-      ExitCode::bad_input,
-      fmt::format("mesh '{}': uv ({:.4g}, {:.4g}) lies outside 0…1, where a texture cannot hold what is "
-                  "there; lay the islands out side by side, or leave the mesh out with --exclude",
-                  part.mesh, uv.x, uv.y));
+// Grows from the parts' uv to the square of whole tiles that holds it.
+void take_square(UvRaster& raster, const glm::dvec2& low, const glm::dvec2& high) {
+  raster.corner = glm::floor(low + rounding);
+  const glm::dvec2 reach = glm::ceil(high - rounding) - raster.corner;
+  const double side = std::max({reach.x, reach.y, 1.0});
+  if (!(side <= most_tiles)) {
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("uv reaches from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}); a texture covers at most {} "
+                    "tiles a side: leave the mesh that is far off out with --exclude",
+                    low.x, low.y, high.x, high.y, most_tiles));
+  }
+  raster.side = static_cast<int>(side);
 }
 
 void draw(UvRaster& raster, std::size_t triangle, const std::array<glm::dvec2, 3>& uv) {
@@ -91,29 +97,33 @@ UvRaster uv_raster(const Surface& surface, int size, int widened) {
   raster.triangle.assign(texels, UvRaster::none);
   raster.source.assign(texels, UvRaster::none);
   raster.barycentric.assign(texels, glm::dvec3(0));
-  bool any = false;
+  glm::dvec2 low(INFINITY), high(-INFINITY);
   std::string without;
-  for (const Part& part : surface.parts) {
-    if (!part.wrinkles) continue;
-    if (!part.has_uv) {
-      without = part.mesh;
-      continue;
-    }
-    any = true;
-    for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-      std::array<glm::dvec2, 3> uv;
-      for (std::size_t c = 0; c < 3; ++c) {
-        uv[c] = surface.render_vertices[surface.triangles[3 * t + c]].uv;
-        check_inside(part, uv[c]);
+  const auto for_triangles = [&](const auto& work) {
+    for (const Part& part : surface.parts) {
+      if (!part.wrinkles) continue;
+      if (!part.has_uv) without = part.mesh;
+      for (std::size_t t = part.first_triangle; part.has_uv && t < part.first_triangle + part.triangle_count;
+           ++t) {
+        std::array<glm::dvec2, 3> uv;
+        for (std::size_t c = 0; c < 3; ++c) uv[c] = surface.render_vertices[surface.triangles[3 * t + c]].uv;
+        work(t, uv);
       }
-      draw(raster, t, uv);
     }
-  }
-  if (!any) {
+  };
+  for_triangles([&](std::size_t, const auto& uv) {
+    for (const glm::dvec2& at : uv) low = glm::min(low, at), high = glm::max(high, at);
+  });
+  if (!(low.x <= high.x)) {
     throw Error(ExitCode::bad_input,
                 without.empty() ? std::string("nothing of the model wrinkles, so there is nothing to bake")
                                 : fmt::format("mesh '{}' has no uv; a map needs them", without));
   }
+  take_square(raster, low, high);
+  for_triangles([&](std::size_t t, std::array<glm::dvec2, 3> uv) {
+    for (glm::dvec2& at : uv) at = (at - raster.corner) / static_cast<double>(raster.side);
+    draw(raster, t, uv);
+  });
   widen(raster, widened);
   return raster;
 }

@@ -14,6 +14,10 @@ namespace plisse {
 struct UvRaster {
   static constexpr std::int64_t none = -1;
   int size = 0;
+  // The square of uv that the texture covers: from `corner` (u, v) on, `side` long. (0, 0) and 1 but where uv
+  // reaches further, as that of cloth whose pattern repeats does; then as many whole tiles as it takes.
+  glm::dvec2 corner{0};
+  int side = 1;
   std::vector<std::int64_t> triangle;   // of the texel's middle; `none` outside of all islands
   std::vector<glm::dvec3> barycentric;  // in that triangle
   // Where the texel's value comes from: itself, a texel of an island at most `widened` texels away, or
@@ -23,7 +27,8 @@ struct UvRaster {
 };
 
 // All triangles of the parts that wrinkle. A texel of several places goes to the first. Throws
-// Error(bad_input) where none of them has uv, or where uv leaves 0…1.
+// Error(bad_input) where none of them has uv, or where uv reaches over more than most_tiles.
+constexpr int most_tiles = 64;  // a side: a texture of 16384 has 256 texels for each
 UvRaster uv_raster(const Surface& surface, int size, int widened);
 
 }  // namespace plisse

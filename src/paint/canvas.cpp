@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
+#include "base/error.h"
 #include "config/suggest.h"
 #include "paint/touch.h"
 
@@ -73,7 +75,7 @@ void apply(const Canvas& canvas, const PaintStroke& stroke, const std::vector<To
   }
 }
 
-std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<std::vector<Touch>> touched_as_its_kind(const Canvas& canvas, const PaintStroke& stroke) {
   switch (stroke.kind) {
     case PaintStroke::Kind::screen:
       return {touched_on_screen(canvas, stroke)};
@@ -93,6 +95,16 @@ std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke&
       break;
   }
   return {touched_by_fill(canvas, stroke)};
+}
+
+// What is wrong with a file that a stroke names is told with the stroke's place.
+std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke& stroke) {
+  try {
+    return touched_as_its_kind(canvas, stroke);
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).starts_with(stroke.place)) throw;
+    fail(stroke, error.what());
+  }
 }
 
 }  // namespace

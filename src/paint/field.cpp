@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "mesh/place_index.h"
 #include "mesh/weld.h"
 
 namespace plisse::paint {
@@ -60,8 +61,7 @@ SurfaceField field_on(const Surface& surface, const io::WrinkleField& field, con
                     file, what));
   };
   const double tolerance = 100 * weld_tolerance(surface.rest);  // texts have six digits
-  std::multimap<double, std::uint32_t> ours;                    // along x
-  for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) ours.emplace(surface.rest[v].x, v);
+  const PlaceIndex ours(surface.rest);
   const double scale = glm::length(glm::dvec3(to_world[0]));
 
   SurfaceField result;
@@ -69,19 +69,10 @@ SurfaceField field_on(const Surface& surface, const io::WrinkleField& field, con
   std::vector<std::uint32_t> counterpart;
   for (std::size_t i = 0; i < field.positions.size(); ++i) {
     const glm::dvec3 x(to_world * glm::dvec4(field.positions[i], 1));
-    double nearest = tolerance;
-    std::uint32_t found = 0xffffffffU;
-    for (auto at = ours.lower_bound(x.x - tolerance); at != ours.end() && at->first <= x.x + tolerance;
-         ++at) {
-      const double distance = glm::distance(surface.rest[at->second], x);
-      if (distance <= nearest) {
-        nearest = distance;
-        found = at->second;
-      }
-    }
-    if (found == 0xffffffffU) throw bad(fmt::format("its vertex {} is not on the model", i));
-    counterpart.push_back(found);
-    result.amplitude[found] = std::max(result.amplitude[found], scale * field.amplitude[i]);
+    const auto found = ours.nearest(x, tolerance);
+    if (!found) throw bad(fmt::format("its vertex {} is not on the model", i));
+    counterpart.push_back(*found);
+    result.amplitude[*found] = std::max(result.amplitude[*found], scale * field.amplitude[i]);
   }
   const auto missing =
       std::count_if(result.amplitude.begin(), result.amplitude.end(), [](double a) { return a < 0; });
@@ -181,7 +172,7 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
 }
 
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
-                                          const SurfaceField& field) {
+                                          const SurfaceField& field, const std::vector<double>& mask) {
   const std::vector<glm::dvec3> gradients = phase_gradients(surface, rest, field);
   std::vector<bool> smooth;
   const auto all = differences(surface, field);
@@ -198,7 +189,7 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
     };
     const double whole = std::round(field.phase[t][0] / (2 * pi));
     for (std::size_t j = 0; j < 3; ++j) {
-      result[t].amplitude[j] = field.amplitude[id(j)];
+      result[t].amplitude[j] = mask[id(j)] * field.amplitude[id(j)];
       for (std::size_t k = 0; k < 3; ++k) {
         const double phase =
             smooth[id(j)]

@@ -40,8 +40,9 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
 
 // The field to be carried as it is: every corner's phase with its vertex's gradient, in the triangle. Where a
 // vertex's gradient does not bring it to its neighbours' phases within a quarter of a turn (round a
-// singularity, or where the amplitude is 0) its planes are linear between the corners instead.
+// singularity, or where the amplitude is 0) its planes are linear between the corners instead. Amplitudes are
+// multiplied by `mask`, one a welded vertex: the scene's strength, 0 where a part is selected out.
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
-                                          const SurfaceField& field);
+                                          const SurfaceField& field, const std::vector<double>& mask);
 
 }  // namespace plisse::paint

@@ -113,4 +113,12 @@ Profile make_profile(const std::string& name) {
   return profile;
 }
 
+Profile with_finer_waves(Profile profile, int waves, double share) {
+  if (waves == 0 || share == 0) return profile;
+  profile.fine_waves = waves;
+  profile.coarse = 1 / std::sqrt(1 + share * share);
+  profile.fine = profile.coarse * share / waves;
+  return profile;
+}
+
 }  // namespace plisse::passes

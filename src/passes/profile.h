@@ -13,7 +13,14 @@ struct Profile {
   std::vector<double> f;             // f(2πi/size)
   std::vector<double> derivative;    // df/dphase there
   double slope_variance = 1;         // mean of f'² over the sinusoid's ½
+  // A wave is coarse · f(τ) + fine · f(fine_waves τ), times its height.
+  int fine_waves = 0;  // 0: none
+  double coarse = 1, fine = 0;
 };
+
+// The profile with finer waves on its own, `waves` to each, `share` times as steep; both shrink so that the
+// cloth is as long as before, to second order in the slopes (docs/passes.md, "Finer waves").
+Profile with_finer_waves(Profile profile, int waves, double share);
 
 // "sinusoid", "accordion" (straight flanks), "pencil" (round pleats that meet in a crease), or a text file of
 // numbers, one period of f from its crest on, evenly spaced. Throws Error(bad_input) with file and line: not

@@ -1,6 +1,7 @@
 #include "passes/render.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
@@ -181,6 +182,12 @@ gpu::Defines RenderPass::surface_defines() const {
   if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
   if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
   if (look_.field) defines.emplace_back("FIELD", "1");
+  if (profile_.fine_waves > 0) {
+    // Their decimals: a uniform that every pixel reads costs more.
+    defines.emplace_back("FINE_WAVES", fmt::format("{}.0", profile_.fine_waves));
+    defines.emplace_back("COARSE_SHARE", fmt::format("{:.9e}", profile_.coarse));
+    defines.emplace_back("FINE_SHARE", fmt::format("{:.9e}", profile_.fine));
+  }
   return defines;
 }
 
@@ -350,6 +357,7 @@ void RenderPass::draw_parts(const Programs& programs, bool blended) {
     }
     uniform(program, "alpha_cutoff", part.alpha_cutoff);
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
+    uniform(program, "object", static_cast<float>(&part - parts_.data() + 1));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
                  static_cast<GLsizei>(3 * part.triangle_count));

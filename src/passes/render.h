@@ -57,7 +57,17 @@ struct DrawPart {
   bool two_sided = true;
 };
 
-enum class Aov { height = 0, normal = 1, amplitude = 2, phase = 3, direction = 4, tension = 5, depth = 6 };
+enum class Aov {
+  height = 0,
+  normal = 1,
+  amplitude = 2,
+  phase = 3,
+  direction = 4,
+  tension = 5,
+  depth = 6,
+  object = 7,  // 1 + the number of the part
+  beauty = 8,  // the picture in linear light; by draw_resolved, not draw_aov
+};
 
 class RenderPass {
  public:

@@ -53,6 +53,13 @@ bool has_colours(const Surface& surface) {
                      [](const Part& part) { return part.has_colours; });
 }
 
+std::vector<glm::vec4> field_corners(const std::vector<FieldTriangle>& field, const ModelUnits& units) {
+  return mapped(3 * field.size(), [&](std::size_t i) {
+    const auto& turns = field[i / 3].turns[i % 3];
+    return glm::vec4(turns[0], turns[1], turns[2], field[i / 3].amplitude[i % 3] / units.metres);
+  });
+}
+
 // Calls work(fine vertex, the three render vertices of its triangle, barycentric coordinates) for every point
 // of every triangle; those on edges come once for each.
 template <typename Work>
@@ -135,11 +142,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
   }));
 
   if (!vertex_waves.field.empty()) {
-    field = gpu::Buffer(mapped(surface.triangles.size(), [&](std::size_t i) {
-      const FieldTriangle& of = vertex_waves.field[i / 3];
-      const auto& turns = of.turns[i % 3];
-      return glm::vec4(turns[0], turns[1], turns[2], of.amplitude[i % 3] / units.metres);
-    }));
+    field = gpu::Buffer(field_corners(vertex_waves.field, units));
   }
 
   positions = gpu::Buffer(count * sizeof(glm::vec4));
@@ -197,6 +200,10 @@ void SurfaceBuffers::show(const Surface& surface, const Subdivision& fine,
                     glm::vec4(uv.y, map, 0)};
   });
   render_vertices.write(vertices);
+}
+
+void SurfaceBuffers::carry(const std::vector<FieldTriangle>& of, const ModelUnits& units) {
+  field.write(field_corners(of, units));
 }
 
 void SurfaceBuffers::bind_for_reading() const {

@@ -21,6 +21,8 @@ struct SurfaceBuffers {
   // A displaced surface: what it looks like comes by `show`, and only Look::displaced draws it.
   SurfaceBuffers(const Surface& surface, const Subdivision& fine);
   void show(const Surface& surface, const Subdivision& fine, const DisplacedSurface& displaced);
+  // Another carried field, where the surface was made with one.
+  void carry(const std::vector<FieldTriangle>& field, const ModelUnits& units);
 
   // Static.
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "config/suggest.h"
 #include "io/exr.h"
@@ -17,8 +18,8 @@ namespace plisse::pipeline {
 namespace {
 
 const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names{"height",    "normal",  "amplitude", "phase",
-                                              "direction", "tension", "depth"};
+  static const std::vector<std::string> names{"height",  "normal", "amplitude", "phase", "direction",
+                                              "tension", "depth",  "object",    "beauty"};
   return names;
 }
 
@@ -42,8 +43,14 @@ glm::vec3 shown(passes::Aov aov, const glm::vec3& value, float scale) {
     case passes::Aov::tension:  // grey at rest, red where compressed, blue where stretched
       return value.x >= 0 ? glm::vec3(0.75F, 0.75F - 2 * value.x, 0.75F - 2 * value.x)
                           : glm::vec3(0.75F + 2 * value.x, 0.75F + 2 * value.x, 0.75F);
+    case passes::Aov::object: {  // hues far apart for numbers that follow each other
+      const float hue = 6.2831853F * std::fmod(value.x * 0.61803399F, 1.0F);
+      return {0.55F + 0.4F * std::cos(hue), 0.55F + 0.4F * std::cos(hue - 2.0944F),
+              0.55F + 0.4F * std::cos(hue + 2.0944F)};
+    }
     case passes::Aov::amplitude:
     case passes::Aov::depth:
+    case passes::Aov::beauty:
       break;
   }
   return glm::vec3(value.x / scale);
@@ -86,9 +93,13 @@ AovWriter::AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::ve
       target_(scene.settings.output.width, scene.settings.output.height, 1, gpu::Target::Format::rgba32f) {}
 
 void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View& view,
-                      const std::string& frame_path, const std::string& hash) {
+                      const std::string& frame_path, const std::string& hash, Picture& frame) {
   const int width = target_.width(), height = target_.height();
   for (const passes::Aov aov : aovs_) {
+    if (aov == passes::Aov::beauty) {
+      write_beauty(surface, view, stem_of(frame_path, aov), hash, frame);
+      continue;
+    }
     pass_.draw_aov(surface, view, target_, aov);
     const std::vector<float> rgba = target_.read_rgba32f();
     const bool length =
@@ -119,6 +130,15 @@ void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View&
     io::write_exr(stem + ".exr", width, height, channels, values);
     io::write_png(stem + ".png", picture, {.hash = hash});
   }
+}
+
+void AovWriter::write_beauty(const passes::SurfaceBuffers& surface, const passes::View& view,
+                             const std::string& stem, const std::string& hash, Picture& frame) {
+  const auto& output = scene_.settings.output;
+  if (!beauty_) beauty_.emplace(output.width, output.height, output.samples, gpu::Target::Format::rgba32f);
+  pass_.draw_resolved(surface, view, *beauty_, false);
+  io::write_exr(stem + ".exr", output.width, output.height, 4, beauty_->read_rgba32f());
+  write_whole_file(stem + ".png", frame.png(hash).first);
 }
 
 }  // namespace plisse::pipeline

@@ -1,36 +1,43 @@
 // Arbitrary output variables: one quantity of the surface a picture, as a float EXR and as a PNG to look at.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/target.h"
 #include "passes/render.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/picture.h"
 
 namespace plisse::pipeline {
 
-// height, normal, amplitude, phase, direction, tension, depth. Throws Error(bad_input) for another name.
+// height, normal, amplitude, phase, direction, tension, depth, object, beauty. Throws Error(bad_input) for
+// another name.
 std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names);
 
-// Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], or 1 − r; 0 where
-// nothing is seen) and `name.height.png` (the same, brought into 0…1).
-// Whether all of them stand beside a frame already, whole and made with this hash.
+// Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], 1 − r, or for
+// object 1 + the number of the part; 0 where nothing is seen) and `name.height.png` (the same, brought into
+// 0…1). `name.beauty.exr` is the frame in linear light, red, green, blue times alpha, and alpha. Whether all
+// of them stand beside a frame already, whole and made with this hash.
 bool aovs_are_whole(const std::vector<passes::Aov>& aovs, const std::string& frame_path,
                     const std::string& hash);
 
 class AovWriter {
  public:
   AovWriter(const LoadedScene& scene, passes::RenderPass& pass, std::vector<passes::Aov> aovs);
-  // `hash` is the frame's; the PNG carries it, written after the EXR.
+  // `hash` is the frame's; the PNG carries it, written after the EXR. `frame`: the picture itself.
   void write(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& frame_path,
-             const std::string& hash);
+             const std::string& hash, Picture& frame);
 
  private:
+  void write_beauty(const passes::SurfaceBuffers& surface, const passes::View& view, const std::string& stem,
+                    const std::string& hash, Picture& frame);
   const LoadedScene& scene_;
   passes::RenderPass& pass_;
   std::vector<passes::Aov> aovs_;
   gpu::Target target_;
+  std::optional<gpu::Target> beauty_;  // with the frame's samples
 };
 
 }  // namespace plisse::pipeline

@@ -121,9 +121,11 @@ double largest_height(const pipeline::LoadedScene& scene) {
   double waves = 0, field = 0;
   for (std::size_t v = 0; v < scene.waves.wavelength.size(); ++v)
     waves = std::max(waves, scene.waves.mask[v] * scene.waves.wavelength[v] / 4);
-  for (const FieldTriangle& triangle : scene.waves.field)
-    for (const double a : triangle.amplitude) field = std::max(field, a);
-  return waves + field;
+  scene.visit_fields([&](const std::vector<FieldTriangle>& of_frame) {
+    for (const FieldTriangle& triangle : of_frame)
+      for (const double a : triangle.amplitude) field = std::max(field, a);
+  });
+  return (scene.profile.coarse + scene.profile.fine) * waves + field;
 }
 
 std::uint8_t byte(double x) {
@@ -160,6 +162,14 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
   const UvRaster& raster = baker.raster();
   BakeReport report;
   report.scale_m = largest_height(scene);
+  report.corner = raster.corner;
+  report.side = raster.side;
+  if (raster.side > 1 || raster.corner != glm::dvec2(0)) {
+    log::notice(
+        fmt::format("uv leaves 0…1; the maps cover {0}×{0} tiles from ({1:g}, {2:g}) on: look them up at "
+                    "((u − {1:g})/{0}, (v − {2:g})/{0})",
+                    raster.side, raster.corner.x, raster.corner.y));
+  }
   report.covered = raster.covered;
   report.overlapping = raster.overlapping;
   if (raster.overlapping > 0) {

@@ -32,7 +32,7 @@ double most_waves_on_an_edge(const LoadedScene& scene) {
   const VertexWaves& waves = scene.waves;
   const auto length_of_wave = [&](std::size_t v) {
     const glm::dvec3 p = waves.bias.empty() ? glm::dvec3(0) : waves.bias[v];
-    return waves.wavelength[v] * (1 - glm::dot(p, p));
+    return waves.wavelength[v] * (1 - glm::dot(p, p)) / std::max(1, scene.profile.fine_waves);
   };
   double most = 0;
   for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
@@ -43,13 +43,15 @@ double most_waves_on_an_edge(const LoadedScene& scene) {
       most = std::max(most, length / std::min(length_of_wave(v), length_of_wave(other)));
     }
   }
-  for (const FieldTriangle& triangle : waves.field) {
-    if (*std::max_element(triangle.amplitude.begin(), triangle.amplitude.end()) == 0) continue;
-    for (const auto& turns : triangle.turns) {
-      const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
-      most = std::max(most, *high - *low);
+  scene.visit_fields([&](const std::vector<FieldTriangle>& field) {
+    for (const FieldTriangle& triangle : field) {
+      if (*std::max_element(triangle.amplitude.begin(), triangle.amplitude.end()) == 0) continue;
+      for (const auto& turns : triangle.turns) {
+        const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
+        most = std::max(most, *high - *low);
+      }
     }
-  }
+  });
   return most;
 }
 
@@ -107,6 +109,7 @@ DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
   // flat; the mean is for all of them.
   DisplacedSurface result;
   result.positions.assign(mesh_.position_count, glm::dvec3(0));
+  result.base = result.positions;
   result.normals.assign(mesh_.normal_count, glm::dvec3(0));
   result.relief.assign(mesh_.position_count, glm::dvec4(0));
   std::vector<int> counts(mesh_.position_count, 0);
@@ -114,6 +117,7 @@ DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
     const FineVertex vertex = mesh_.vertices[mesh_.points[i]];
     const reference::Displaced& point = displaced[i];
     result.positions[vertex.position] += to_glm(point.position);
+    result.base[vertex.position] += to_glm(point.base);
     result.normals[vertex.normal] += to_glm(point.normal);
     result.relief[vertex.position] +=
         glm::dvec4(point.height, point.amplitude, point.sky_front, point.sky_back);
@@ -122,10 +126,12 @@ DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) {  // of no triangle
       const auto v = static_cast<Index>(i);
-      if (v < snapshot.positions.cols()) result.positions[i] = to_glm(snapshot.positions.col(v));
+      if (v < snapshot.positions.cols())
+        result.positions[i] = result.base[i] = to_glm(snapshot.positions.col(v));
       continue;
     }
     result.positions[i] /= counts[i];
+    result.base[i] /= counts[i];
     result.relief[i] /= counts[i];
     if (!std::isfinite(result.positions[i].x + result.positions[i].y + result.positions[i].z))
       throw Error(ExitCode::check_failed, "a displaced vertex is not finite");

@@ -11,6 +11,7 @@
 #include "io/point_cache.h"
 #include "pipeline.h"
 #include "pipeline/displace.h"
+#include "pipeline/outside.h"
 #include "pipeline/visit_frames.h"
 
 namespace plisse {
@@ -80,6 +81,8 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_output(request.output, frames);
   const pipeline::Displacement displacement(scene, request.levels);
+  std::optional<pipeline::Outside> outside;
+  if (!request.outside.empty()) outside.emplace(scene, request.outside);
   io::MeshFile mesh = mesh_of(scene, displacement.mesh());
 
   ExportReport report;
@@ -96,6 +99,7 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
       !pipeline::visit_frames(scene, frames, {request.device, request.shader_folder}, on_frame,
                               [&](int frame, const passes::SurfaceBuffers& surface) {
                                 DisplacedSurface displaced = displacement.at(surface);
+                                if (outside) outside->hold(frame, displacement.mesh(), displaced);
                                 for (glm::dvec3& x : displaced.positions) x = displacement.metres(x);
                                 const std::string path = numbered_path(request.output, frame);
                                 if (cache) {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/colour.h"
-#include "io/png.h"
 
 namespace plisse::pipeline {
 namespace {
@@ -35,18 +34,16 @@ passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
 
 }  // namespace
 
-std::pair<std::vector<std::uint8_t>, bool> Picture::png(const std::string& hash) {
-  bool compressed = false;
-  std::call_once(once_, [&] {
-    png_ = io::encode_png(image_);
-    image_ = {};
-    compressed = true;
-  });
-  return {hash.empty() ? png_ : io::with_hash(png_, hash), compressed};
+FrameDrawer::Geometry::Geometry(const LoadedScene& scene, const RenderRequest& request)
+    : displacement(scene, request.levels), buffers(scene.surface(), displacement.mesh()) {
+  if (!request.outside.empty()) outside.emplace(scene, request.outside);
 }
 
-FrameDrawer::Geometry::Geometry(const LoadedScene& scene, std::optional<int> levels)
-    : displacement(scene, levels), buffers(scene.surface(), displacement.mesh()) {}
+void FrameDrawer::Geometry::move(const Surface& surface, const passes::SurfaceBuffers& posed, int frame) {
+  DisplacedSurface displaced = displacement.at(posed);
+  if (outside) outside->hold(frame, displacement.mesh(), displaced);
+  buffers.show(surface, displacement.mesh(), displaced);
+}
 
 FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
                          const std::vector<passes::Aov>& aovs, const gpu::Context& context,
@@ -56,7 +53,7 @@ FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
       software_(context.info().software),
       timer_(timer),
       stepper_(scene, timer, request.shader_folder),
-      geometry_(request.displace ? std::make_optional<Geometry>(scene, request.levels) : std::nullopt),
+      geometry_(request.displace ? std::make_optional<Geometry>(scene, request) : std::nullopt),
       pass_(look_of(scene, request), scene.profile, parts(), scene.texture_levels(), request.shader_folder),
       samples_(scene.settings.output.samples) {
   if (!aovs.empty()) aov_writer_.emplace(scene, pass_, aovs);
@@ -95,9 +92,10 @@ void FrameDrawer::set_effort(const Effort& effort) {
 bool FrameDrawer::advance_to(int frame) {
   const int step = scene_.step_of_frame(frame), before = stepper_.step();
   if (!stepper_.advance_to(step)) return false;
-  // A camera of the model's own may move where the pose does not.
+  // A camera of the model's own may move where the pose does not, and so may a body.
+  const bool body_moves = geometry_ && geometry_->outside && geometry_->outside->moves();
   stays_ = stepper_.unchanged() && before == step - 1 && picture_step_ == before &&
-           scene_.settings.camera.name.empty();
+           scene_.settings.camera.name.empty() && !body_moves;
   frame_ = frame;
   return true;
 }
@@ -111,8 +109,7 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
     picture_.reset();
     if (geometry_) {
       const double began = now_ms();
-      geometry_->buffers.show(scene_.surface(), geometry_->displacement.mesh(),
-                              geometry_->displacement.at(stepper_.surface()));
+      geometry_->move(scene_.surface(), stepper_.surface(), frame_);
       entry.ms["displace"] = now_ms() - began;
     }
     const gpu::Target& target = this->target();
@@ -126,7 +123,7 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
     picture_ = std::make_shared<Picture>(std::move(image));
   }
   picture_step_ = stepper_.step();
-  if (aov_writer_) aov_writer_->write(drawn(), view, entry.path, hash);
+  if (aov_writer_) aov_writer_->write(drawn(), view, entry.path, hash, *picture_);
   return picture_;
 }
 

@@ -4,36 +4,22 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/context.h"
 #include "gpu/target.h"
-#include "io/model.h"
 #include "passes/render.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
 #include "pipeline/displace.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/outside.h"
+#include "pipeline/picture.h"
 #include "pipeline/stepper.h"
 
 namespace plisse::pipeline {
-
-// A finished picture and its PNG, which is made by whoever needs it first: a picture that stays for several
-// frames is compressed once. Many threads may ask.
-class Picture {
- public:
-  explicit Picture(io::Image image) : image_(std::move(image)) {}
-  // The file of a frame with this hash (none: empty), and whether it was this call that compressed it.
-  std::pair<std::vector<std::uint8_t>, bool> png(const std::string& hash);
-
- private:
-  io::Image image_;
-  std::once_flag once_;
-  std::vector<std::uint8_t> png_;
-};
 
 class FrameDrawer {
  public:
@@ -54,8 +40,10 @@ class FrameDrawer {
  private:
   // Waves as geometry, as the render pass takes it.
   struct Geometry {
-    Geometry(const LoadedScene& scene, std::optional<int> levels);
+    Geometry(const LoadedScene& scene, const RenderRequest& request);
+    void move(const Surface& surface, const passes::SurfaceBuffers& posed, int frame);
     Displacement displacement;
+    std::optional<Outside> outside;
     passes::SurfaceBuffers buffers;
   };
   std::vector<passes::DrawPart> parts() const;

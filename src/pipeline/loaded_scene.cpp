@@ -11,13 +11,16 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "config/frames.h"
 #include "config/options.h"
 #include "config/paint_file.h"
 #include "config/suggest.h"
 #include "io/import_place.h"
+#include "io/sequence.h"
 #include "io/wrinkle_field.h"
 #include "paint/bias_file.h"
 #include "paint/field.h"
+#include "scene/wavelength_map.h"
 #include "scene/wrinkles.h"
 
 namespace plisse::pipeline {
@@ -58,6 +61,18 @@ void add(Hash& hash, const glm::dmat4& m) {
   }
 }
 
+// Does what takes in the file that a key names; an error says where the scene has that key.
+template <typename Work>
+void for_key(const SceneSettings& scene, const std::string& key, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    const auto place = scene.places.find(key);
+    if (place == scene.places.end()) throw;
+    throw Error(error.code, fmt::format("{}: {}", place->second, error.what()));
+  }
+}
+
 }  // namespace
 
 }  // namespace plisse::pipeline
@@ -81,11 +96,18 @@ LoadedScene::LoadedScene(const SceneSettings& given)
     : settings(given),
       model(io::import_model(given.model.path, import_options(given))),
       animation(model, choice_of(given)),
-      profile(passes::make_profile(given.wrinkles.profile)) {
+      profile(passes::with_finer_waves(passes::make_profile(given.wrinkles.profile), given.wrinkles.fine,
+                                       given.wrinkles.fine_share)) {
   select_parts(animation.surface(), settings.wrinkles);
   if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = default_wavelength(surface());
   rest = rest_frames(surface());
   waves = vertex_waves(surface(), settings.wrinkles, wavelength());
+  if (!settings.wrinkles.wavelength_map.empty()) {
+    for_key(settings, "wrinkles.wavelength_map", [&] {
+      take_wavelengths(surface(), settings.wrinkles, io::file_to_world(model.up, model.metres_per_unit),
+                       waves);
+    });
+  }
   preroll_ = settings.model.loop ? animation.timeline().frame_count : 0;
 
   const std::vector<glm::dvec3> samples = animation.samples();
@@ -260,16 +282,68 @@ const io::Camera& model_camera(const io::Model& model, const std::string& choice
 void LoadedScene::take_bias() {
   const BiasSettings& given = settings.bias;
   if (!given.paint.empty()) waves.bias = painted(load_paint(given.paint));
-  if (!given.file.empty()) waves.bias = paint::read_bias(given.file, surface(), rest);
-  if (!given.field.empty()) {
-    const auto field =
-        paint::field_on(surface(), io::read_wrinkle_field(given.field, settings.model.path),
-                        io::file_to_world(model.up, model.metres_per_unit), given.field.string());
-    if (given.use == FieldUse::bias)
-      paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
-    else
-      waves.field = paint::field_directly(surface(), rest, field);
+  if (!given.file.empty())
+    for_key(settings, "bias.file", [&] { waves.bias = paint::read_bias(given.file, surface(), rest); });
+  if (!given.field.empty())
+    for_key(settings, "bias.field",
+            [&] { names_many_files(given.field) ? take_field_files() : take_field(); });
+}
+
+void LoadedScene::take_field() {
+  const BiasSettings& given = settings.bias;
+  const auto field =
+      paint::field_on(surface(), io::read_wrinkle_field(given.field, settings.model.path),
+                      io::file_to_world(model.up, model.metres_per_unit), given.field.string());
+  if (given.use == FieldUse::bias)
+    paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
+  else
+    waves.field = paint::field_directly(surface(), rest, field, waves.mask);
+}
+
+// One field a frame. Each has all the waves of its frame's surface: what that surface is compressed against
+// the rest pose is what the field was solved for, and no reason for more.
+void LoadedScene::take_field_files() {
+  const std::filesystem::path& pattern = settings.bias.field;
+  field_files_ = io::sequence_files(pattern);
+  const auto frames = static_cast<std::size_t>(animation.timeline().frame_count);
+  if (field_files_.size() != frames) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: there are {} fields, {} to {}, but the clip has {} frames; each needs one",
+                            pattern.string(), field_files_.size(), field_files_.front().filename().string(),
+                            field_files_.back().filename().string(), frames));
   }
+  const std::filesystem::path& mesh = settings.model.path;
+  if (std::filesystem::is_directory(mesh) || names_many_files(mesh)) field_meshes_ = io::sequence_files(mesh);
+  field_mask_ = waves.mask;
+  std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
+  waves.field = field_over(posed(surface(), animation.pose(1)), 1);
+  field_frame_ = 1;
+}
+
+std::vector<FieldTriangle> LoadedScene::field_over(const std::vector<glm::dvec3>& positions,
+                                                   int frame) const {
+  const auto index = static_cast<std::size_t>(frame - 1);
+  Surface base = surface();
+  base.rest = positions;
+  const auto file = io::read_wrinkle_field(
+      field_files_.at(index), index < field_meshes_.size() ? field_meshes_[index] : settings.model.path);
+  const auto field = paint::field_on(base, file, io::file_to_world(model.up, model.metres_per_unit),
+                                     field_files_[index].string());
+  return paint::field_directly(base, rest_frames(base), field, field_mask_);
+}
+
+void LoadedScene::take_field(int step) {
+  const int frame = frame_of_step(step);
+  if (field_files_.empty() || frame == field_frame_) return;
+  waves.field = field_over(posed(surface(), pose(step)), frame);
+  field_frame_ = frame;
+}
+
+void LoadedScene::visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const {
+  if (field_files_.empty()) return work(waves.field);
+  Animation posing(model, choice_of(settings));
+  for (int frame = 1; frame <= posing.timeline().frame_count; ++frame)
+    work(field_over(posed(surface(), posing.pose(frame)), frame));
 }
 
 std::vector<glm::dvec3> LoadedScene::painted(const PaintSettings& paint) const {
@@ -409,9 +483,10 @@ Hash LoadedScene::state_hash(int step) {
 Hash LoadedScene::constants_hash() const {
   Hash hash;
   add_items(hash, waves.wander);
-  if (!waves.field.empty()) add_items(hash, waves.field);
+  if (!has_field_a_frame() && !waves.field.empty()) add_items(hash, waves.field);
   add_items(hash, profile.f);
   add_items(hash, profile.derivative);
+  hash.add(profile.fine_waves).add(profile.coarse).add(profile.fine);
   for (const auto& vertex : surface().render_vertices) {
     hash.add(vertex.welded)
         .add(vertex.uv.x)
@@ -457,6 +532,10 @@ std::string LoadedScene::frame_hash(int frame, const Hash& driver) {
   if (constants_.empty()) constants_ = constants_hash().hex();
   Hash hash = state_hash(step_of_frame(frame));
   hash.add(driver.hex()).add(constants_);
+  if (has_field_a_frame()) {
+    take_field(step_of_frame(frame));
+    add_items(hash, waves.field);
+  }
   const passes::View at = view(frame);
   add(hash, at.view_projection);
   add(hash, at.eye);

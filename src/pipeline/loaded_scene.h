@@ -2,6 +2,8 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "base/hash.h"
@@ -38,6 +40,14 @@ class LoadedScene {
   // p of every welded vertex after these strokes (paint/canvas.h).
   std::vector<glm::dvec3> painted(const PaintSettings& paint) const;
 
+  // Whether every frame has a field of its own; waves.field is then that of the step taken last, at first
+  // frame 1's. A step that is taken is one whose pose may be asked for. Throws Error(bad_input) where the
+  // field is none of that frame's surface.
+  bool has_field_a_frame() const { return !field_files_.empty(); }
+  void take_field(int step);
+  // The carried field of all the clip, one call each; none where there is no such field.
+  void visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const;
+
   // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
   int step_of_frame(int frame) const { return preroll_ + frame; }
   int frame_of_step(int step) const { return step <= preroll_ ? step : step - preroll_; }
@@ -55,6 +65,14 @@ class LoadedScene {
 
  private:
   void take_bias();
+  void take_field();        // the one for all frames
+  void take_field_files();  // one a frame
+  std::vector<FieldTriangle> field_over(const std::vector<glm::dvec3>& positions, int frame) const;
+  // One a frame, or none; for text files, the OBJ that each belongs to; the part of each vertex that
+  // wrinkles.
+  std::vector<std::filesystem::path> field_files_, field_meshes_;
+  std::vector<double> field_mask_;
+  int field_frame_ = 0;
   paint::Screen screen(const PaintStroke& stroke) const;
   CameraSettings fitted_camera(const SceneSettings& given, const std::vector<glm::dvec3>& samples) const;
   passes::View view(int frame, const SceneSettings& given) const;

@@ -226,7 +226,11 @@ std::vector<reference::Triangle> reference_triangles(const ReferenceScene& scene
 
 reference::Profile reference_profile(const LoadedScene& scene) {
   const auto& profile = scene.profile;
-  return reference::tabulated(profile.f, profile.derivative, profile.slope_variance);
+  auto result = reference::tabulated(profile.f, profile.derivative, profile.slope_variance);
+  result.fine_waves = profile.fine_waves;
+  result.coarse = profile.coarse;
+  result.fine = profile.fine;
+  return result;
 }
 
 reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& snapshot,

@@ -15,6 +15,7 @@
 #include "config/frames.h"
 #include "gpu/shader_source.h"
 #include "io/png.h"
+#include "io/sequence.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
 #include "pipeline/frame_drawer.h"
@@ -133,6 +134,19 @@ void check_budget(const RenderRequest& request) {
   if (!request.state_file.empty()) refuse("--state");
 }
 
+// What a body decides: the bytes of its files (what they name beside them is not looked at), or the name of a
+// part of the model.
+std::string body_fingerprint(const std::string& body) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> files;
+  if (names_many_files(body)) files = io::sequence_files(body);
+  if (std::filesystem::is_regular_file(body, ignored)) files = {body};
+  Hash hash;
+  hash.add(body);
+  for (const auto& file : files) hash.add_bytes(read_whole_file(file));
+  return hash.hex();
+}
+
 // Displaced geometry has these of its own; the others are of single waves.
 void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
   using passes::Aov;
@@ -158,6 +172,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   check_aovs(aovs, request.displace);
   check_budget(request);
 
+  const std::string body_hash = body_fingerprint(request.outside);
   if (!request.state_file.empty()) check_writable(request.state_file);
   const gpu::Context context(request.device);
   gpu::StageTimer timer(context.info().software);
@@ -169,6 +184,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   report.welded_vertices = scene.surface().vertex_count();
   report.triangles = scene.surface().triangle_count();
   report.timer = timer.kind();
+  for (const Part& part : scene.surface().parts) report.objects.push_back({part.mesh, part.material_name});
   report.wavelength_m = scene.wavelength();
   report.frames.resize(frames.size());
 
@@ -203,7 +219,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       entry.path = frame_path(output.path, frame);
       std::string hash = governor.active() ? std::string() : scene.frame_hash(frame, driver);
       if (request.displace && !hash.empty())
-        hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).hex();
+        hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).add(body_hash).hex();
       const bool exists = std::filesystem::exists(entry.path);
       if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
           pipeline::aovs_are_whole(aovs, entry.path, hash)) {

@@ -131,6 +131,11 @@ bool Stepper::advance_to(int step) {
     }
     scene_.drop_poses_before(step_);
   }
+  if (scene_.has_field_a_frame()) {
+    scene_.take_field(step_);
+    surface_.carry(scene_.waves.field, scene_.units);
+    unchanged_ = false;
+  }
   return true;
 }
 

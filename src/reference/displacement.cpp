@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/functions.h"
+
 namespace plisse::reference {
 
 using Eigen::Matrix3d;
@@ -21,6 +23,24 @@ Vector3d perpendicular(const Vector3d& n) {
   return n.cross(Vector3d::Unit(smallest)).normalized();
 }
 
+// What a field's waves move within the surface (Chen et al. 2021, v₂): ⅛ A² sin 2φ ∇φ, so that cloth is
+// neither stretched nor squeezed along a wave; and its derivative by the place in the triangle's plane, with
+// ∇φ held: it turns over the bend of the waves, the rest over a wavelength.
+struct InPlane {
+  Vector3d motion = Vector3d::Zero();
+  Matrix3d gradient = Matrix3d::Zero();
+};
+
+InPlane in_plane_motion(const CarriedField& field, const Matrix3d& corners, const Vector3d& barycentric,
+                        Blend blend) {
+  const FieldSample at = sample(field, corners, barycentric, blend);
+  const Vector3d amplitude_slope = blend_weights(corners, barycentric, blend).gradients * field.amplitudes;
+  const Vector3d phase_slope = 2 * pi * at.slope;
+  const double twice = 4 * pi * at.turns, a = at.amplitude;
+  const Vector3d climb = 0.25 * a * (std::sin(twice) * amplitude_slope + a * std::cos(twice) * phase_slope);
+  return {0.125 * a * a * std::sin(twice) * phase_slope, phase_slope * climb.transpose()};
+}
+
 }  // namespace
 
 Displaced displace(const Triangle& triangle, const Matrix3d& directions, const Vector3d& barycentric,
@@ -29,8 +49,9 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
   const HeightSample waves = height_and_gradient(triangle.waves, barycentric, profile, blend, Gradient::full);
   Displaced result;
   result.height = waves.height;
-  result.amplitude = waves.weights.dot(triangle.waves.heights);
+  result.amplitude = (profile.coarse + profile.fine) * waves.weights.dot(triangle.waves.heights);
   Vector3d gradient = waves.gradient;
+  InPlane sliding;
   const Matrix3d slopes = barycentric_gradients(corners);
   double longest = triangle.waves.wavenumbers.colwise().norm().maxCoeff();
   if (triangle.field) {
@@ -40,6 +61,7 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
     gradient += carried.gradient;
     const Matrix3d planes = slopes * triangle.field->turns.transpose();
     longest = std::max(longest, planes.colwise().norm().maxCoeff());
+    if (carried.amplitude > 0) sliding = in_plane_motion(*triangle.field, corners, barycentric, blend);
   }
   result.sky_front = groove_occlusion(cavity, result.amplitude, result.height, longest);
   result.sky_back = groove_occlusion(cavity, result.amplitude, -result.height, longest);
@@ -47,7 +69,8 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
   const Vector3d mean = directions * barycentric;
   const double length = mean.norm();
   const Vector3d d = length > 0 ? Vector3d(mean / length) : Vector3d::Zero();
-  result.position = corners * barycentric + result.height * d;
+  result.base = corners * barycentric;
+  result.position = result.base + sliding.motion + result.height * d;
 
   const Vector3d n = (triangle.normals * barycentric).normalized();
   result.normal = (n - gradient).normalized();
@@ -62,7 +85,8 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
     const Vector3d e = t - t.dot(plane) / upright * n;  // in the triangle's plane, above t
     const Vector3d turning = directions * (slopes.transpose() * e);
     const Vector3d bend = (turning - d.dot(turning) * d) / length;  // ∂d/∂e
-    moved[i] = t + gradient.dot(e) * n + result.height * (bend - n.dot(bend) * n);
+    const Vector3d slide = sliding.gradient * e;
+    moved[i] = t + slide - n.dot(slide) * n + gradient.dot(e) * n + result.height * (bend - n.dot(bend) * n);
   }
   const Vector3d normal = moved[0].cross(moved[1]);
   // A height beyond the radius of the bend turns the surface over; then eq. 7 is the better answer.

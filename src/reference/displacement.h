@@ -9,7 +9,8 @@
 namespace plisse::reference {
 
 struct Displaced {
-  Eigen::Vector3d position;  // unit of the triangle
+  Eigen::Vector3d base;      // the point of the triangle that was moved, unit of the triangle
+  Eigen::Vector3d position;  // where to
   Eigen::Vector3d normal;    // unit
   double height = 0, amplitude = 0;
   double sky_front = 1, sky_back = 1;  // "Cavity", as seen from the normals' side and from the other

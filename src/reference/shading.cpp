@@ -121,18 +121,23 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
 
   // The waves, faded as they near two pixels.
   const Eigen::Matrix<double, 3, 2> turns_per_pixel = corner_turns(waves) * fragment.per_pixel;
-  Vector3d fade, wavenumber, slope_squared;
+  const Profile& profile = scene.profile;
+  Vector3d fade, fine_fade, wavenumber, slope_squared;
   for (int j = 0; j < 3; ++j) {
     fade[j] = 1 - smoothstep(0.25, 0.5, turns_per_pixel.row(j).norm());
+    fine_fade[j] = 1 - smoothstep(0.25, 0.5, profile.fine_waves * turns_per_pixel.row(j).norm());
     wavenumber[j] = waves.wavenumbers.col(j).norm();
-    slope_squared[j] =
-        0.5 * std::pow(2 * pi * waves.heights[j] * wavenumber[j], 2) * scene.profile.slope_power;
+    slope_squared[j] = 0.5 * std::pow(2 * pi * waves.heights[j] * wavenumber[j], 2) * profile.slope_power;
   }
   double longest_wavenumber = wavenumber.maxCoeff();
-  HeightSample wave =
-      height_and_gradient(waves, fragment.barycentric, scene.profile, shading.blend, shading.gradient, fade);
-  double lost_slope = wave.weights.dot(slope_squared.cwiseProduct((1 - fade.array().square()).matrix()));
-  double amplitude = wave.weights.dot(waves.heights.cwiseProduct(fade));
+  HeightSample wave = height_and_gradient(waves, fragment.barycentric, profile, shading.blend,
+                                          shading.gradient, fade, fine_fade);
+  const double fine_slope = profile.fine * profile.fine_waves;
+  const Vector3d lost = std::pow(profile.coarse, 2) * (1 - fade.array().square()) +
+                        std::pow(fine_slope, 2) * (1 - fine_fade.array().square());
+  double lost_slope = wave.weights.dot(slope_squared.cwiseProduct(lost));
+  double amplitude =
+      wave.weights.dot(waves.heights.cwiseProduct(profile.coarse * fade + profile.fine * fine_fade));
   if (triangle.field) {
     const CarriedField& field = *triangle.field;
     const FieldSample carried = sample(field, waves.corners, fragment.barycentric, shading.blend);

@@ -111,16 +111,22 @@ Matrix3d corner_turns(const WaveTriangle& triangle) {
 }
 
 HeightSample height_and_gradient(const WaveTriangle& triangle, const Vector3d& barycentric,
-                                 const Profile& profile, Blend blend, Gradient gradient,
-                                 const Vector3d& fade) {
+                                 const Profile& profile, Blend blend, Gradient gradient, const Vector3d& fade,
+                                 const Vector3d& fine_fade) {
   const BlendWeights blended = blend_weights(triangle.corners, barycentric, blend);
   const Vector3d turns = corner_turns(triangle) * barycentric;
   HeightSample sample;
   sample.weights = blended.weights;
   for (int j = 0; j < 3; ++j) {
-    const double amplitude = triangle.heights[j] * fade[j];
-    const double height = amplitude * profile.height(turns[j]);                                         // H_j
-    const Vector3d slope = 2 * pi * amplitude * profile.slope(turns[j]) * triangle.wavenumbers.col(j);  // D_j
+    double height = profile.coarse * fade[j] * profile.height(turns[j]);  // H_j/h_j
+    double climb = profile.coarse * fade[j] * profile.slope(turns[j]);
+    if (profile.fine_waves > 0) {
+      const double fine = profile.fine * fine_fade[j], fine_turns = profile.fine_waves * turns[j];
+      height += fine * profile.height(fine_turns);
+      climb += fine * profile.fine_waves * profile.slope(fine_turns);
+    }
+    height *= triangle.heights[j];
+    const Vector3d slope = 2 * pi * triangle.heights[j] * climb * triangle.wavenumbers.col(j);  // D_j
     sample.height += blended.weights[j] * height;
     sample.gradient += blended.weights[j] * slope;
     if (gradient == Gradient::full) sample.gradient += height * blended.gradients.col(j);

@@ -17,6 +17,9 @@ struct Profile {
   std::function<double(double)> height;
   std::function<double(double)> slope;
   double slope_power = 1;  // m: the mean of f'² over ½
+  // Finer waves on each ("Finer waves"): coarse f(τ) + fine f(fine_waves τ).
+  int fine_waves = 0;
+  double coarse = 1, fine = 0;
 };
 Profile sinusoid();
 // Looks f and f' up in tables of equal size with linear interpolation, entry i at i/N turns, as the shaders
@@ -49,10 +52,12 @@ struct HeightSample {
   Eigen::Vector3d gradient{0, 0, 0};  // ∇h, world
   Eigen::Vector3d weights{0, 0, 0};   // w_j
 };
-// The height field at a point of the triangle. `fade` multiplies each wave (1 far from the pixel's limit).
+// The height field at a point of the triangle. `fade` multiplies each wave (1 far from the pixel's limit),
+// `fine_fade` its finer ones.
 HeightSample height_and_gradient(const WaveTriangle& triangle, const Eigen::Vector3d& barycentric,
                                  const Profile& profile, Blend blend, Gradient gradient,
-                                 const Eigen::Vector3d& fade = Eigen::Vector3d::Ones());
+                                 const Eigen::Vector3d& fade = Eigen::Vector3d::Ones(),
+                                 const Eigen::Vector3d& fine_fade = Eigen::Vector3d::Ones());
 
 // A solved wrinkle field over one triangle (docs/passes.md, "Fields"): height A cos 2πθ with A and θ blended
 // first.

@@ -150,7 +150,8 @@ TEST_F(SceneFile, UnknownKeyNamesTheNearest) {
   EXPECT_THAT(complaint("[wrinkles]\n  wavelenth = 1\n"),
               testing::StartsWith("4:3: key 'wavelenth': unknown in [wrinkles]"));
   EXPECT_THAT(complaint("[wrinkles]\nwavelenth = 1\n"), HasSubstr("did you mean 'wavelength'?"));
-  EXPECT_THAT(complaint("[wrinkles]\nzebra = 1\n"), HasSubstr("allowed: wavelength, strength, profile"));
+  EXPECT_THAT(complaint("[wrinkles]\nzebra = 1\n"),
+              HasSubstr("allowed: wavelength, wavelength_map, wavelength_low, fine, fine_share, strength"));
   EXPECT_THAT(complaint("[wrinkles]\nzebra = 1\n"), Not(HasSubstr("did you mean")));
 }
 
@@ -445,6 +446,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"paint", "\"model.glb\""},
                                                      {"file", "\"model.glb\""},
                                                      {"field", "\"model.glb\""},
+                                                     {"wavelength_map", "\"model.glb\""},
                                                      {"use", "\"direct\""},
                                                      {"cache", "\"walk.mdd\""},
                                                      {"memory_mib", "100"},

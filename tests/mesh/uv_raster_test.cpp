@@ -74,6 +74,22 @@ TEST(UvRaster, OverlapsAreCountedAndSharedEdgesAreNone) {
   EXPECT_EQ(raster.covered, 64U * 65 / 2);
 }
 
+// The uv of cloth whose pattern repeats: what lies inside 0…1 after fitting is what a raster of that would
+// be. (The numbers have no rounding, or texels whose middles lie on an edge might go either way.)
+TEST(UvRaster, RepeatingUvIsFittedByWholeTiles) {
+  const UvRaster tiled = uv_raster(triangle({-0.5F, 1.25F}, {2.75F, 1.5F}, {0.25F, 3.875F}), 100, 2);
+  EXPECT_EQ(tiled.corner, glm::dvec2(-1, 1));
+  EXPECT_EQ(tiled.side, 4);
+  const UvRaster fitted =
+      uv_raster(triangle({0.5F / 4, 0.25F / 4}, {3.75F / 4, 0.5F / 4}, {1.25F / 4, 2.875F / 4}), 100, 2);
+  EXPECT_EQ(fitted.corner, glm::dvec2(0));
+  EXPECT_EQ(fitted.side, 1);
+  EXPECT_EQ(tiled.triangle, fitted.triangle);
+  EXPECT_EQ(tiled.source, fitted.source);
+  // Up to the rim and a rounding over it are still one tile.
+  EXPECT_EQ(uv_raster(triangle({-1e-7F, 0}, {1, 0}, {0, 1.0000001F}), 16, 0).side, 1);
+}
+
 TEST(UvRaster, SaysWhatIsMissing) {
   Surface surface = triangle({0, 0}, {1, 0}, {0, 1});
   surface.parts[0].has_uv = false;
@@ -81,9 +97,9 @@ TEST(UvRaster, SaysWhatIsMissing) {
   surface.parts[0].wrinkles = false;
   EXPECT_THAT(test::error_of([&] { uv_raster(surface, 64, 0); }), HasSubstr("nothing of the model wrinkles"));
   EXPECT_THAT(test::error_of([&] {
-                uv_raster(triangle({0, 0}, {1.5F, 0}, {0, 1}), 64, 0);
+                uv_raster(triangle({0, 0}, {65.5F, 0}, {0, 1}), 64, 0);
               }),
-              HasSubstr("uv (1.5, 0) lies outside 0…1"));
+              HasSubstr("uv reaches from (0, 0) to (65.5, 1); a texture covers at most 64 tiles a side"));
 }
 
 }  // namespace

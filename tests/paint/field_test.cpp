@@ -49,30 +49,56 @@ test::Readings first_frame(Sheet& sheet, const SurfaceField& field) {
   return passes.read();
 }
 
+Eigen::Vector3d vector(const glm::dvec3& x) {
+  return {x.x, x.y, x.z};
+}
+
+std::size_t corner_of(const Sheet& sheet, std::size_t t, std::size_t c) {
+  return sheet.surface.render_vertices[sheet.surface.triangles[3 * t + c]].welded;
+}
+
+// Height of the passes' waves at a point of a triangle.
+double height_at(const Sheet& sheet, const test::Readings& now, std::size_t t, const Eigen::Vector3d& b) {
+  reference::WaveTriangle triangle;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t id = corner_of(sheet, t, c);
+    const auto i = static_cast<Eigen::Index>(c);
+    triangle.corners.col(i) = vector(now.position[id]);
+    triangle.wavenumbers.col(i) = vector(now.wave[id]);
+    triangle.heights[i] = now.height[id];
+    triangle.phases[i] = now.phase[id];
+  }
+  return reference::height_and_gradient(triangle, b, reference::sinusoid(), reference::Blend::smooth,
+                                        reference::Gradient::full)
+      .height;
+}
+
+// The field as it is carried, at a point of a triangle of the rest pose.
+double carried_at(const Sheet& sheet, const std::vector<FieldTriangle>& field, std::size_t t,
+                  const Eigen::Vector3d& b) {
+  reference::CarriedField carried;
+  Eigen::Matrix3d corners;
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    corners.col(j) = vector(sheet.surface.rest[corner_of(sheet, t, c)]);
+    carried.amplitudes[j] = field[t].amplitude[c];
+    for (Eigen::Index k = 0; k < 3; ++k) carried.turns(j, k) = field[t].turns[c][static_cast<std::size_t>(k)];
+  }
+  return reference::sample(carried, corners, b, reference::Blend::smooth).height;
+}
+
 // RMS of the difference to a cos φ over the RMS of a cos φ, at seven points of each triangle that `counts`.
 double error_of(const Sheet& sheet, const test::Readings& now, const SurfaceField& field,
                 const std::function<bool(std::size_t)>& counts, const Formula& exact = {}) {
-  const auto vector = [](const glm::dvec3& x) { return Eigen::Vector3d(x.x, x.y, x.z); };
   double squares = 0, all = 0;
   for (std::size_t t = 0; t < sheet.surface.triangle_count(); ++t) {
     if (!counts(t)) continue;
-    reference::WaveTriangle triangle;
-    std::array<std::size_t, 3> id{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      id[c] = sheet.surface.render_vertices[sheet.surface.triangles[3 * t + c]].welded;
-      const auto i = static_cast<Eigen::Index>(c);
-      triangle.corners.col(i) = vector(now.position[id[c]]);
-      triangle.wavenumbers.col(i) = vector(now.wave[id[c]]);
-      triangle.heights[i] = now.height[id[c]];
-      triangle.phases[i] = now.phase[id[c]];
-    }
+    const std::array<std::size_t, 3> id{corner_of(sheet, t, 0), corner_of(sheet, t, 1),
+                                        corner_of(sheet, t, 2)};
     for (const double s : {0.1, 0.35, 0.55, 0.8}) {
       for (const double part : {0.1, 0.5, 0.9}) {
         const Eigen::Vector3d b(s, (1 - s) * part, (1 - s) * (1 - part));
-        const double height =
-            reference::height_and_gradient(triangle, b, reference::sinusoid(), reference::Blend::smooth,
-                                           reference::Gradient::full)
-                .height;
+        const double height = height_at(sheet, now, t, b);
         double wanted = 0;
         if (exact) {
           glm::dvec3 x(0);
@@ -191,8 +217,7 @@ TEST(FieldFormula, DirectlyIsExactForPlaneWavesManyToATriangle) {
   };  // five waves an edge
   const auto amplitude = [](const glm::dvec3&) { return 0.003; };
   const SurfaceField field = field_of(sheet, amplitude, phase);
-  const auto triangles = field_directly(sheet.surface, sheet.rest, field);
-  const auto vector = [](const glm::dvec3& x) { return Eigen::Vector3d(x.x, x.y, x.z); };
+  const auto triangles = field_directly(sheet.surface, sheet.rest, field, sheet.waves.mask);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     reference::CarriedField carried;
     Eigen::Matrix3d corners;
@@ -227,7 +252,7 @@ TEST(FieldFormula, DirectlyHasNoCreaseAtEdges) {
   const auto phase = [](const glm::dvec3& x) { return 300 * std::hypot(x.x + 0.2, x.y + 0.1); };
   const SurfaceField field = field_of(
       sheet, [](const glm::dvec3& x) { return 0.002 + 0.005 * x.x; }, phase);
-  const auto triangles = field_directly(sheet.surface, sheet.rest, field);
+  const auto triangles = field_directly(sheet.surface, sheet.rest, field, sheet.waves.mask);
   const auto at = [&](std::size_t t, const Eigen::Vector3d& x) {
     reference::CarriedField carried;
     Eigen::Matrix3d corners;
@@ -290,6 +315,130 @@ TEST_F(Field, TheAuthorsDiskAsBias) {
   // Its edges are 1.6 waves long (8 mm, 5 mm): between the vertices three waves of one phase each know
   // nothing of the turns of the others. Random phases would give √2 = 141 %.
   EXPECT_LT(error, 1.0);
+}
+
+// --- waves counted round a circle
+
+// What `value` of a triangle and barycentric coordinates is, at many places round a circle about the origin
+// of the plane z = 0, in whose projection the sheet lies.
+std::vector<double> round_circle(const Sheet& sheet, double radius,
+                                 const std::function<double(std::size_t, const Eigen::Vector3d&)>& value) {
+  constexpr int places = 8000;
+  std::vector<double> values;
+  std::size_t t = 0;
+  for (int i = 0; i < places; ++i) {
+    const double angle = 2 * pi * (i + 0.37) / places;
+    const Eigen::Vector3d x(radius * std::cos(angle), radius * std::sin(angle), 1);
+    for (std::size_t tried = 0; tried <= sheet.surface.triangle_count(); ++tried) {
+      Eigen::Matrix3d corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const glm::dvec3 p = sheet.surface.rest[corner_of(sheet, t, c)];
+        corners.col(static_cast<Eigen::Index>(c)) = Eigen::Vector3d(p.x, p.y, 1);
+      }
+      const Eigen::Vector3d b = corners.inverse() * x;
+      if (b.minCoeff() >= -1e-9) {
+        values.push_back(value(t, b));
+        break;
+      }
+      t = (t + 1) % sheet.surface.triangle_count();
+    }
+  }
+  EXPECT_EQ(values.size(), static_cast<std::size_t>(places)) << "the circle leaves the sheet";
+  return values;
+}
+
+// Times that the values cross 0 on the way up.
+int crests(const std::vector<double>& values) {
+  int count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    count += values[i] < 0 && values[(i + 1) % values.size()] >= 0 ? 1 : 0;
+  return count;
+}
+
+// Whole turns of a phase that is known up to whole turns.
+int winding(const std::vector<double>& phases) {
+  double sum = 0;
+  for (std::size_t i = 0; i < phases.size(); ++i)
+    sum += std::remainder(phases[(i + 1) % phases.size()] - phases[i], 2 * pi);
+  return static_cast<int>(std::lround(std::abs(sum) / (2 * pi)));
+}
+
+struct Counted {
+  int field = 0, bias = 0, direct = 0;
+};
+
+Counted counted(Sheet& sheet, const SurfaceField& field, double radius) {
+  Counted result;
+  result.field = winding(round_circle(sheet, radius, [&](std::size_t t, const Eigen::Vector3d& b) {
+    return b[0] * field.phase[t][0] + b[1] * field.phase[t][1] + b[2] * field.phase[t][2];
+  }));
+  const auto carried = field_directly(sheet.surface, sheet.rest, field, sheet.waves.mask);
+  result.direct = crests(round_circle(sheet, radius, [&](std::size_t t, const Eigen::Vector3d& b) {
+    return carried_at(sheet, carried, t, b);
+  }));
+  const test::Readings now = first_frame(sheet, field);
+  result.bias = crests(round_circle(
+      sheet, radius, [&](std::size_t t, const Eigen::Vector3d& b) { return height_at(sheet, now, t, b); }));
+  return result;
+}
+
+// Thirty waves round a ring, 1.6 of its edges long.
+TEST_F(Field, ARingHasAsManyWavesAsItsFieldEitherWay) {
+  constexpr int round = 48, rows = 5, waves = 30;
+  std::vector<glm::dvec3> points;
+  std::vector<std::uint32_t> triangles;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < round; ++i) {
+      const double angle = 2 * pi * (i + 0.5 * j) / round, radius = 0.06 + 0.01 * j;
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  }
+  for (int j = 0; j + 1 < rows; ++j) {
+    for (int i = 0; i < round; ++i) {
+      const auto at = [&](int column, int row) {
+        return static_cast<std::uint32_t>(row * round + column % round);
+      };
+      triangles.insert(triangles.end(), {at(i, j), at(i, j + 1), at(i + 1, j)});
+      triangles.insert(triangles.end(), {at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+    }
+  }
+  Sheet sheet = test::sheet(points, triangles, 0.01);
+  SurfaceField field;
+  field.amplitude.assign(points.size(), 0.001);
+  for (std::size_t t = 0; t < sheet.surface.triangle_count(); ++t) {
+    const auto angle = [&](std::size_t c) {
+      const glm::dvec3 p = points[corner_of(sheet, t, c)];
+      return std::atan2(p.y, p.x);
+    };
+    std::array<double, 3> phase{};
+    for (std::size_t c = 0; c < 3; ++c)
+      phase[c] = waves * (angle(0) + std::remainder(angle(c) - angle(0), 2 * pi));
+    field.phase.push_back(phase);
+  }
+  for (const double radius : {0.07, 0.08, 0.09}) {
+    const Counted count = counted(sheet, field, radius);
+    EXPECT_EQ(count.field, waves);
+    EXPECT_EQ(count.direct, waves);
+    EXPECT_EQ(count.bias, waves);
+  }
+}
+
+// Issue 4: the authors' disk as bias has the same waves by counted period. Its edges are longer than its
+// waves.
+TEST_F(Field, TheAuthorsDiskHasItsWavesEitherWay) {
+  if (!std::filesystem::exists(test::shared_data("tfw-disk"))) GTEST_SKIP() << "no ../shared/data/tfw-disk";
+  const io::WrinkleField file = disk();
+  std::vector<std::uint32_t> triangles;
+  for (const auto& t : file.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  Sheet sheet = test::sheet(file.positions, triangles, 0.01);
+  const SurfaceField field = field_on(sheet.surface, file, glm::dmat4(1), "disk");
+  for (const double radius : {0.066, 0.068, 0.070, 0.072, 0.074}) {
+    const Counted count = counted(sheet, field, radius);
+    std::printf("the authors' disk at radius %.3f m: %d waves, direct %d, as bias %d\n", radius, count.field,
+                count.direct, count.bias);
+    EXPECT_EQ(count.direct, count.field) << radius;
+    EXPECT_NEAR(count.bias, count.field, 2) << radius;
+  }
 }
 
 TEST(FieldFiles, HaveToFitTheSurface) {

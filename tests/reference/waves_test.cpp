@@ -69,6 +69,40 @@ TEST(ReferenceWaves, FullGradientIsTheHeightsDerivative) {
     }
 }
 
+// Finer waves: the slope is that of the height, and the two take as much of the cloth's length as one alone,
+// half the mean square of the slopes.
+TEST(ReferenceWaves, FinerWavesSlopeAndLength) {
+  Random random(5);
+  for (const auto& [waves, share] : {std::pair(3, 0.5), std::pair(8, 1.5)}) {
+    Profile both = sinusoid();
+    both.fine_waves = waves;
+    both.coarse = 1 / std::sqrt(1 + share * share);
+    both.fine = both.coarse * share / waves;
+    const WaveTriangle t = random_triangle(random);
+    const Vector3d at = random.barycentric(), change = Vector3d::Unit(1) - Vector3d::Unit(0);
+    const double expected = height_and_gradient(t, at, both, Blend::smooth, Gradient::full)
+                                .gradient.dot(t.corners.col(1) - t.corners.col(0));
+    for (const double step : {1e-4, 1e-5}) {
+      const auto height = [&](double s) {
+        return height_and_gradient(t, at + s * change, both, Blend::smooth, Gradient::full).height;
+      };
+      // As above, third derivatives grown by fine · waves³ = share · waves².
+      EXPECT_NEAR((height(step) - height(-step)) / (2 * step), expected,
+                  2e4 * (1 + share * waves * waves) * step * step + 1e-15 / step);
+    }
+    // One corner's own wave, along its own direction, over one period.
+    double alone = 0, together = 0;
+    constexpr int places = 1000;
+    for (int i = 0; i < places; ++i) {
+      const double turns = (i + 0.5) / places;
+      alone += std::pow(both.slope(turns), 2);
+      together +=
+          std::pow(both.coarse * both.slope(turns) + both.fine * waves * both.slope(waves * turns), 2);
+    }
+    EXPECT_NEAR(together / alone, 1, 1e-9);
+  }
+}
+
 TEST(ReferenceWaves, PaperGradientDropsTheWeightsGradient) {
   Random random(2);
   for (const Blend blend : {Blend::linear, Blend::smooth}) {

@@ -1,0 +1,39 @@
+// Keeps displaced cloth out of a body (--outside).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/subdivide.h"
+#include "pipeline/loaded_scene.h"
+#include "shell/triangle_body.h"
+
+namespace plisse::pipeline {
+
+class Outside {
+ public:
+  // `body`: a mesh or material of the scene's own model, or a file of a model that is read as the scene's is
+  // (unit, up axis, frames a second) and has one frame or at least the clip's; closed. Throws
+  // Error(bad_input).
+  Outside(const LoadedScene& scene, const std::string& body);
+
+  // Whether it may be another in another frame while the scene's own pose stays.
+  bool moves() const { return animation_ && animation_->timeline().frame_count > 1; }
+
+  // Cuts a point's way from its base short where it would enter the body; a base that lies inside already is
+  // moved only where that does not lead deeper. Points that were cut get the normals of the triangles around
+  // them. Everything in model units.
+  void hold(int frame, const Subdivision& mesh, DisplacedSurface& moved);
+
+ private:
+  shell::TriangleBody body(int frame, const std::vector<glm::dvec3>& base);
+  const LoadedScene& scene_;
+  std::string name_;
+  std::vector<std::size_t> parts_;  // of the scene's surface; or else
+  io::Model model_;
+  std::optional<Animation> animation_;
+  std::optional<shell::TriangleBody> body_;  // of the last frame
+};
+
+}  // namespace plisse::pipeline

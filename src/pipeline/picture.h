@@ -1,0 +1,28 @@
+// A finished picture on its way into files.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/image.h"
+
+namespace plisse::pipeline {
+
+// A finished picture and its PNG, which is made by whoever needs it first: a picture that stays for several
+// frames is compressed once. Many threads may ask.
+class Picture {
+ public:
+  explicit Picture(io::Image image) : image_(std::move(image)) {}
+  // The file of a frame with this hash (none: empty), and whether it was this call that compressed it.
+  std::pair<std::vector<std::uint8_t>, bool> png(const std::string& hash);
+
+ private:
+  io::Image image_;
+  std::once_flag once_;
+  std::vector<std::uint8_t> png_;
+};
+
+}  // namespace plisse::pipeline
