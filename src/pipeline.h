@@ -157,6 +157,7 @@ struct BakeRequest {
   bool height = true, normal = true;
   int texture_size = 2048;
   bool green_up = true;  // of the normal map; false: DirectX's
+  std::string outside;   // a body that the waves keep out of; empty: none
   int device = -1;
   std::string shader_folder;
 };

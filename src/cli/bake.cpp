@@ -40,6 +40,10 @@ struct Arguments {
            described("Which way the normal map's green points: up (Blender, glTF, OpenGL; the default) "
                      "or down (DirectX)"))
         ->type_name("up|down");
+    app.add_option("--outside", outside,
+                   described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
+                             "model of its own with one frame or as many"))
+        ->type_name("MESH|FILE");
     app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
   }
@@ -65,6 +69,7 @@ struct Arguments {
     if (green != "up" && green != "down")
       throw Error(ExitCode::bad_input, fmt::format("--green: '{}'; allowed: up or down", green));
     request.green_up = green == "up";
+    request.outside = outside;
     request.device = device.device();
     request.shader_folder = shaders;
     return request;
@@ -73,7 +78,7 @@ struct Arguments {
   SceneArguments scene;
   DeviceArguments device;
   CommonArguments common;
-  std::string output, texture_size, green = "up", shaders;
+  std::string output, texture_size, green = "up", outside, shaders;
   std::vector<std::string> maps;
 };
 

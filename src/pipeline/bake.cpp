@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -16,6 +17,7 @@
 #include "mesh/tangents.h"
 #include "mesh/uv_raster.h"
 #include "pipeline.h"
+#include "pipeline/outside.h"
 #include "pipeline/reference_scene.h"
 #include "pipeline/visit_frames.h"
 #include "reference/displacement.h"
@@ -59,7 +61,8 @@ class Baker {
   const UvRaster& raster() const { return raster_; }
 
   // One a texel of the raster; those outside of all islands stay flat.
-  std::vector<Texel> at(const pipeline::WaveSnapshot& snapshot) const {
+  // What a body would stop lies on it (`outside`: posed, or null).
+  std::vector<Texel> at(const pipeline::WaveSnapshot& snapshot, const pipeline::Outside* outside) const {
     const auto triangles = pipeline::reference_triangles(reference_, snapshot);
     const std::vector<CornerTangent> tangents = mikktspace(corners(triangles));
     const auto blend =
@@ -75,8 +78,12 @@ class Baker {
             static_cast<Eigen::Index>(triangle.welded[static_cast<std::size_t>(c)]));
       const glm::dvec3 b = raster_.barycentric[i];
       const auto point = reference::displace(triangle, directions, {b.x, b.y, b.z}, profile_, blend, 0);
-      texels[i] = {point.height * scene_.units.metres,
-                   in_basis(to_glm(point.normal), &tangents[3 * t], triangle.normals, b)};
+      const bool held = outside && !outside->owns(t);
+      const double share = held ? outside->free_share(to_glm(point.base), to_glm(point.position)) : 1;
+      const glm::dvec3 normal =
+          share < 1 ? lying(*outside, point, share, triangle.normals, b) : to_glm(point.normal);
+      texels[i] = {share * point.height * scene_.units.metres,
+                   in_basis(normal, &tangents[3 * t], triangle.normals, b)};
     });
     return texels;
   }
@@ -93,6 +100,15 @@ class Baker {
       }
     }
     return result;
+  }
+
+  // Of cloth that was stopped: the body's, or its own without waves where it did not move at all.
+  static glm::dvec3 lying(const pipeline::Outside& outside, const reference::Displaced& point, double share,
+                          const Eigen::Matrix3d& normals, const glm::dvec3& b) {
+    const glm::dvec3 own = to_glm(normals * Eigen::Vector3d(b.x, b.y, b.z));
+    if (!(share > 0)) return own;
+    const glm::dvec3 out = outside.normal_near(glm::mix(to_glm(point.base), to_glm(point.position), share));
+    return glm::dot(out, own) < 0 ? -out : out;
   }
 
   // The components from which a renderer gets this normal back: it interpolates tangent and normal and makes
@@ -159,6 +175,8 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
   pipeline::LoadedScene scene(request.scene);
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   const Baker baker(scene, request.texture_size);
+  std::optional<pipeline::Outside> outside;
+  if (!request.outside.empty()) outside.emplace(scene, request.outside);
   const UvRaster& raster = baker.raster();
   BakeReport report;
   report.scale_m = largest_height(scene);
@@ -183,7 +201,13 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
   report.interrupted = !pipeline::visit_frames(
       scene, frames, {request.device, request.shader_folder}, on_frame,
       [&](int frame, const passes::SurfaceBuffers& surface) {
-        const std::vector<Texel> texels = baker.at(pipeline::read_snapshot(surface));
+        const pipeline::WaveSnapshot snapshot = pipeline::read_snapshot(surface);
+        if (outside) {
+          std::vector<glm::dvec3> welded;
+          for (const auto& x : snapshot.positions.colwise()) welded.push_back(to_glm(x));
+          outside->take(frame, welded);
+        }
+        const std::vector<Texel> texels = baker.at(snapshot, outside ? &*outside : nullptr);
         const auto path = [&](const char* kind, const char* ending) {
           const auto named = folder / fmt::format("{}_{:04}{}", kind, frame, ending);
           report.outputs.push_back({named.string(), kind, frame});

@@ -26,7 +26,7 @@ Eigen::Vector3d eigen(const glm::dvec3& v) {
 }
 
 // How far a way that begins outside leads before it enters: 1 where it does not.
-double free_share(const shell::TriangleBody& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+double entry(const shell::TriangleBody& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const auto enters = [&](double share) { return solid.distance(from + share * (to - from)).value <= 0; };
   double outside = 0, inside = solid.tree().first_hit(from, to);
   if (inside <= 1) return inside;
@@ -109,11 +109,37 @@ shell::TriangleBody Outside::body(int frame, const std::vector<glm::dvec3>& base
   return {std::move(points), std::move(triangles), "--outside " + name_};
 }
 
+void Outside::take(int frame, const std::vector<glm::dvec3>& welded) {
+  const bool still = animation_ && !moves();
+  if (!still || !body_) body_.emplace(body(frame, welded));
+}
+
+double Outside::free_share(const glm::dvec3& base, const glm::dvec3& to) const {
+  const double way = glm::distance(base, to);
+  if (!(way > 0)) return 1;
+  const double above = body_->distance(eigen(base)).value;
+  if (above > way) return 1;
+  if (!(above > 0)) return body_->distance(eigen(to)).value < above ? 0 : 1;
+  const double share = entry(*body_, eigen(base), eigen(to));
+  return share < 1 ? std::max(0.0, share - gap / way) : 1;
+}
+
+glm::dvec3 Outside::normal_near(const glm::dvec3& x) const {
+  const Eigen::Vector3d out = body_->distance(eigen(x)).first;
+  return {out.x(), out.y(), out.z()};
+}
+
+bool Outside::owns(std::size_t triangle) const {
+  return std::ranges::any_of(parts_, [&](std::size_t p) {
+    const Part& part = scene_.surface().parts[p];
+    return triangle >= part.first_triangle &&
+           triangle < std::size_t{part.first_triangle} + part.triangle_count;
+  });
+}
+
 void Outside::hold(int frame, const Subdivision& mesh, DisplacedSurface& moved) {
   const std::vector<glm::dvec3>& base = moved.base;
-  const bool still = animation_ && !moves();
-  if (!still || !body_) body_.emplace(body(frame, base));
-  const shell::TriangleBody& solid = *body_;
+  take(frame, base);
 
   std::vector<std::uint8_t> own(base.size(), 0), cut(base.size(), 0);  // own: the body's own surface
   const auto small = static_cast<std::size_t>(mesh.segments) * static_cast<std::size_t>(mesh.segments);
@@ -125,19 +151,8 @@ void Outside::hold(int frame, const Subdivision& mesh, DisplacedSurface& moved) 
   }
   tbb::parallel_for(std::size_t{0}, base.size(), [&](std::size_t i) {
     glm::dvec3& x = moved.positions[i];
-    const double way = glm::distance(base[i], x);
-    if (own[i] || !(way > 0)) return;
-    const Eigen::Vector3d from = eigen(base[i]), to = eigen(x);
-    const double above = solid.distance(from).value;
-    if (above > way) return;
-    double share = 0;
-    if (above > 0) {
-      share = free_share(solid, from, to);
-      if (share >= 1) return;
-      share = std::max(0.0, share - gap / way);
-    } else if (solid.distance(to).value >= above) {
-      return;
-    }
+    const double share = own[i] ? 1 : free_share(base[i], x);
+    if (share >= 1) return;
     x = glm::mix(base[i], x, share);
     moved.relief[i].x *= share;
     cut[i] = 1;

@@ -26,6 +26,16 @@ class Outside {
   // them. Everything in model units.
   void hold(int frame, const Subdivision& mesh, DisplacedSurface& moved);
 
+  // The same point by point. First the body as it is in a frame; `welded` begins with the places of the
+  // scene's own welded vertices.
+  void take(int frame, const std::vector<glm::dvec3>& welded);
+  // How much of the way from a base is free, 1 where all of it is; 0 where it must not begin.
+  double free_share(const glm::dvec3& base, const glm::dvec3& to) const;
+  // The unit normal of the body nearest to a point, outward.
+  glm::dvec3 normal_near(const glm::dvec3& x) const;
+  // Whether a triangle of the scene is the body's own, which nothing holds.
+  bool owns(std::size_t triangle) const;
+
  private:
   shell::TriangleBody body(int frame, const std::vector<glm::dvec3>& base);
   const LoadedScene& scene_;

@@ -109,6 +109,37 @@ TEST_F(Bake, RepeatingUvIsBakedIntoOneMapOfAllTiles) {
   EXPECT_GT(json["covered"], 256 * 256 / 20);
 }
 
+// The square lies in z = 0; a box under it ends half a wave's height below.
+TEST_F(Bake, WhatABodyStopsIsLevelThere) {
+  const double top = -0.5 * 0.021651;
+  std::string box;
+  for (const double z : {-1.0, top})
+    for (const double y : {-2, 2})
+      for (const double x : {-2, 2}) box += fmt::format("v {} {} {}\n", x, y, z);
+  write_text(folder_ / "box.obj", box + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n");
+  run({"bake", asset("square.toml").string(), "-q", "--frames", "73", "--texture-size", "256", "-o",
+       file("maps"), "--outside", file("box.obj")});
+  const io::Image height = io::load_image(folder_ / "maps/height_0073.png"),
+                  normal = io::load_image(folder_ / "maps/normal_0073.png");
+  // Black is −W/4, as above.
+  const double lowest = 127.5 + 127.5 * top / 0.025;
+  std::size_t stopped = 0;
+  for (std::size_t i = 0; i < height.rgba.size(); i += 4) {
+    EXPECT_GE(height.rgba[i], lowest - 0.5);
+    if (height.rgba[i] > lowest + 0.5) continue;
+    ++stopped;
+    // A texel beside them may be as low to eight bits and not lie on the box.
+    if (i < 4 || i + 4 >= height.rgba.size() || height.rgba[i - 4] != height.rgba[i] ||
+        height.rgba[i + 4] != height.rgba[i])
+      continue;
+    EXPECT_NEAR(normal.rgba[i], 127.5, 1) << i;
+    EXPECT_NEAR(normal.rgba[i + 1], 127.5, 1) << i;
+    EXPECT_EQ(normal.rgba[i + 2], 255) << i;
+  }
+  // cos φ < −1/2 on a third of a wave; where waves meet that differs.
+  EXPECT_NEAR(static_cast<double>(stopped) / (256 * 256), 1.0 / 3, 0.05);
+}
+
 TEST_F(Bake, GreenPointsUpOrDown) {
   for (const char* green : {"up", "down"})
     run({"bake", asset("square.toml").string(), "-q", "--frames", "73", "--texture-size", "64", "-o",
