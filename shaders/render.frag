@@ -11,7 +11,6 @@
 #include "common/shading.glsl"
 
 layout(binding = 0) uniform sampler2D base_colour_map;
-layout(binding = 1) uniform sampler1D profile;   // f, f' over one period
 #ifdef NORMAL_MAP
 layout(binding = 5) uniform sampler2D normal_map;
 #endif
@@ -27,77 +26,14 @@ uniform vec3 view_forward;
 #endif
 
 #ifndef PLAIN
+#include "common/waves.glsl"
+
 struct Wrinkle {
     float height;
     vec3 gradient;
     float amplitude;   // Σ w h fade
     float lost_slope;  // Σ w ½(2πh|κ|)² m (1 − fade²)
 };
-
-// f and f' of three waves at their phases, turns.
-void look_up(vec3 turns, out vec3 f, out vec3 slope) {
-#ifdef SINUSOID
-    // cos and −sin of 2πx within half a turn, as polynomials of Chebyshev interpolation, good to 1e-6.
-    vec3 x = turns - floor(turns + 0.5), u = x * x;
-    f = 0.9999992 + u * (-19.7389782 + u * (64.9285878 + u * (-85.2708436 + u * (58.7869408 - u * 21.0654294))));
-    slope = -x * (6.2831849 + u * (-41.3415883 + u * (81.5999136 + u * (-76.6141403 + u * (41.3413654 - u * 12.4688186)))));
-#else
-    vec3 place = turns + 0.5 / float(textureSize(profile, 0));  // entry i is f at i/N turns, and texels are found by their middles
-    vec2 a = texture(profile, place.x).rg, b = texture(profile, place.y).rg, c = texture(profile, place.z).rg;
-    f = vec3(a.x, b.x, c.x);
-    slope = vec3(a.y, b.y, c.y);
-#endif
-}
-
-float rise(float s, out float slope) {  // S and S'
-    s = clamp(s, 0.0, 1.0);
-    slope = 6.0 * s * (1.0 - s);
-    return s * s * (3.0 - 2.0 * s);
-}
-
-// The weights of the three waves, and what their gradients are made of.
-struct Weights {
-    vec3 w;
-#ifndef LINEAR_BLEND
-    vec3 edge, product, s, slope;  // e_AB, e_BC, e_CA over E; αβ, βγ, γα; S and S' along each edge
-    float scale;
-#endif
-};
-
-Weights weights_at(vec3 b) {
-    Weights at;
-#ifdef LINEAR_BLEND
-    at.w = b;
-#else
-    at.s.x = rise(b.y + b.z * along.z, at.slope.x);
-    at.s.y = rise(b.z + b.x * along.x, at.slope.y);
-    at.s.z = rise(b.x + b.y * along.y, at.slope.z);
-    at.product = b * b.yzx;
-    vec3 edge = at.product * at.product;
-    at.scale = 1.0 / (edge.x + edge.y + edge.z + 1e-20);
-    at.edge = edge * at.scale;
-    at.w = vec3(at.edge.x * (1.0 - at.s.x) + at.edge.z * at.s.z, at.edge.y * (1.0 - at.s.y) + at.edge.x * at.s.x,
-                at.edge.z * (1.0 - at.s.z) + at.edge.y * at.s.y);
-#endif
-    return at;
-}
-
-// Σ H_j ∇w_j.
-vec3 blend_gradient(Weights at, vec3 b, vec3 H) {
-#ifdef LINEAR_BLEND
-    vec3 change = H;  // ∂(Σ w H)/∂(α, β, γ)
-#else
-    float blend = dot(at.w, H);
-    // Of Σ e D/E: the edges' own blends D against the whole, and the motion along each edge.
-    vec3 D = vec3(mix(H.x, H.y, at.s.x), mix(H.y, H.z, at.s.y), mix(H.z, H.x, at.s.z)) - blend;
-    vec3 twice = 2.0 * at.scale * at.product * D;
-    vec3 motion = at.edge * vec3(at.slope.x * (H.y - H.x), at.slope.y * (H.z - H.y), at.slope.z * (H.x - H.z));
-    vec3 change = vec3(twice.x * b.y + twice.z * b.z + motion.y * along.x + motion.z,
-                       twice.x * b.x + twice.y * b.z + motion.x + motion.z * along.y,
-                       twice.y * b.y + twice.z * b.x + motion.x * along.z + motion.y);
-#endif
-    return (change.y - change.x) * gradient_beta + (change.z - change.x) * gradient_gamma;
-}
 
 #ifdef FIELD
 // The carried field: amplitude and phase are blended before the cosine is taken, so that any number of waves fits into a
@@ -120,19 +56,15 @@ Wrinkle wrinkle_at(vec3 b) {
     vec3 dx = dFdx(tau), dy = dFdy(tau);
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
     vec3 fade = 1.0 - smoothstep(0.25, 0.5, turns_per_pixel);
-    vec3 h = heights.xyz * fade;
-    vec3 f, slope, lost = 1.0 - fade * fade;
-    look_up(tau, f, slope);
-    vec3 H = h * f, climb = fade * slope;
+    vec3 h = heights.xyz * fade, lost = 1.0 - fade * fade, fine_fade = vec3(0.0), shape, climb;
 #ifdef FINE_WAVES
-    vec3 fine_fade = 1.0 - smoothstep(0.25, 0.5, FINE_WAVES * turns_per_pixel), fine_f, fine_slope;
-    look_up(FINE_WAVES * tau, fine_f, fine_slope);
-    H = COARSE_SHARE * H + FINE_SHARE * heights.xyz * fine_fade * fine_f;
-    climb = COARSE_SHARE * climb + FINE_SHARE * FINE_WAVES * fine_fade * fine_slope;
+    fine_fade = 1.0 - smoothstep(0.25, 0.5, FINE_WAVES * turns_per_pixel);
     h = COARSE_SHARE * h + FINE_SHARE * heights.xyz * fine_fade;
     lost = COARSE_SHARE * COARSE_SHARE * lost +
            FINE_SHARE * FINE_SHARE * FINE_WAVES * FINE_WAVES * (1.0 - fine_fade * fine_fade);
 #endif
+    shapes(tau, fade, fine_fade, shape, climb);
+    vec3 H = heights.xyz * shape;
 
     Weights weights_here = weights_at(b);
     vec3 w = weights_here.w;

@@ -10,7 +10,7 @@ layout(binding = 13) uniform samplerBuffer waves;         // κ in (t', b'), h, 
 layout(binding = 14) uniform samplerBuffer world_waves;   // κ in the world, w
 layout(binding = 15) uniform samplerBuffer phases;        // φ, status
 layout(binding = 16) uniform samplerBuffer states;        // k in (t, b); 1 − r; g
-// Units 17 to 20 are a pass's own.
+// Units 17 to 22 are a pass's own.
 
 vec3 position(uint v) { return texelFetch(positions, int(v)).xyz; }
 vec3 frame_normal(uint v) { return texelFetch(frames, 2 * int(v)).xyz; }

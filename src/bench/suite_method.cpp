@@ -78,7 +78,7 @@ class Methods {
     const int frame = scene.animation.timeline().frame_count;
     stepper.advance_to(scene.step_of_frame(frame));
     const gpu::Target target(width(), height(), 4, gpu::Target::Format::srgb8);
-    const pipeline::Displacement displacement(scene, setup_.pick(1, 3, 3));
+    const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << setup_.pick(1, 3, 3)));
     passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
     const Sample began = now();
     pass.draw_resolved(stepper.surface(), scene.view(frame), target, context_.info().software);

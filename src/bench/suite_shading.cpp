@@ -10,7 +10,7 @@
 #include "bench/film.h"
 #include "bench/suite.h"
 #include "io/flip.h"
-#include "pipeline/displace.h"
+#include "passes/displacement.h"
 
 namespace plisse::bench {
 namespace {
@@ -24,21 +24,24 @@ struct Shot {
 class Geometry {
  public:
   Geometry(Film& film, int levels)
-      : film_(film), displacement_(film.scene, levels), buffers_(film.scene.surface(), displacement_.mesh()) {
+      : film_(film),
+        mesh_(subdivide(film.scene.surface(), 1 << levels)),
+        buffers_(film.scene.surface(), mesh_),
+        displacement_(mesh_, film.scene.profile, film.scene.look().smooth_blend, film.scene.look().field,
+                      film.scene.look().cavity, "") {
     passes::Look look = film.scene.look();
     look.displaced = true;
     auto parts = film.scene.draw_parts();
-    const auto finer =
-        static_cast<std::uint32_t>(displacement_.mesh().segments * displacement_.mesh().segments);
     for (passes::DrawPart& part : parts) {
-      part.first_triangle *= finer;
-      part.triangle_count *= finer;
+      const auto small = mesh_.small_triangles(part.first_triangle, part.triangle_count);
+      part.first_triangle = small.first;
+      part.triangle_count = small.count;
     }
     pass_.emplace(look, film.scene.profile, parts, film.scene.texture_levels(), "");
   }
   // A frame of it: moved and drawn.
   void draw() {
-    buffers_.show(film_.scene.surface(), displacement_.mesh(), displacement_.at(film_.rig.surface()));
+    displacement_.run(film_.rig.surface(), buffers_);
     pass_->draw_resolved(buffers_, film_.view, film_.target, film_.software);
     finish();
   }
@@ -52,8 +55,9 @@ class Geometry {
 
  private:
   Film& film_;
-  pipeline::Displacement displacement_;
+  Subdivision mesh_;
   passes::SurfaceBuffers buffers_;
+  passes::DisplacementPass displacement_;
   std::optional<passes::RenderPass> pass_;
 };
 
@@ -94,7 +98,7 @@ SuiteReport measure_shading(const Setup& setup) {
   report.note = fmt::format(
       "One frame of the sleeve's clip: its waves as shading on the coarse mesh that they live on, and as "
       "geometry of 1 to {} "
-      "times as many triangles, moved on the CPU by all threads. The truth is geometry of {} times as many. "
+      "times as many triangles. The truth is geometry of {} times as many. "
       "Normals and "
       "pictures are compared where both show the surface.",
       1 << (2 * (densest - 1)), 1 << (2 * densest));

@@ -36,7 +36,7 @@ struct Arguments {
 
 // "crush.r" stands with "crush", and the passes stand in the order they run in.
 std::vector<std::string> pass_order(const VerifyReport& report) {
-  constexpr std::array<std::string_view, 4> order = {"skin", "crush", "relax", "render"};
+  constexpr std::array<std::string_view, 5> order = {"skin", "crush", "relax", "displacement", "render"};
   const auto rank = [&](const std::string& name) {
     return std::find(order.begin(), order.end(), std::string_view(name).substr(0, name.find('.'))) -
            order.begin();

@@ -14,16 +14,37 @@
 namespace plisse {
 namespace {
 
+using Steps = std::array<int, 3>;  // how many segments lead toward each corner, together all of them
+
+// A triangle's segments, and those of each edge: edge c lies opposite corner c.
+struct Split {
+  int segments = 1;
+  std::array<int, 3> edges{1, 1, 1};
+};
+
+// Points on an edge that has fewer segments move along it to the nearest that it has (ties: toward the corner
+// that comes next), in steps of the triangle's own.
+Steps snapped(Steps steps, const Split& split) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int own = split.edges[c];
+    if (steps[c] > 0 || own == split.segments) continue;
+    const std::size_t a = (c + 1) % 3, b = (c + 2) % 3;
+    const int ratio = split.segments / own;
+    steps[b] = (2 * steps[b] + ratio - 1) / (2 * ratio) * ratio;
+    steps[a] = split.segments - steps[b];
+  }
+  return steps;
+}
+
 // Numbers the points of triangles whose corners are numbered already: the same number for the same point of
 // an edge, whichever triangle asks and however it runs through the edge.
 class Numbering {
  public:
-  Numbering(std::size_t corners, int segments) : next_(corners), segments_(segments) {}
+  explicit Numbering(std::size_t corners) : next_(corners) {}
 
-  // `steps`: how many of the segments lead toward each corner, together all of them.
-  std::size_t number(const std::array<std::uint32_t, 3>& corners, const std::array<int, 3>& steps) {
+  std::size_t number(const std::array<std::uint32_t, 3>& corners, const Steps& steps, const Split& split) {
     for (std::size_t c = 0; c < 3; ++c) {
-      if (steps[c] == segments_) return corners[c];
+      if (steps[c] == split.segments) return corners[c];
     }
     for (std::size_t c = 0; c < 3; ++c) {
       if (steps[c] > 0) continue;
@@ -31,8 +52,9 @@ class Numbering {
       const bool forward = corners[a] < corners[b] || (corners[a] == corners[b] && a < b);
       const auto key = forward ? std::pair(corners[a], corners[b]) : std::pair(corners[b], corners[a]);
       const auto [edge, fresh] = edges_.try_emplace(std::uint64_t{key.first} << 32U | key.second, next_);
-      if (fresh) next_ += static_cast<std::size_t>(segments_ - 1);
-      return edge->second + static_cast<std::size_t>(steps[forward ? b : a] - 1);
+      if (fresh) next_ += static_cast<std::size_t>(split.edges[c] - 1);
+      const int along = steps[forward ? b : a] / (split.segments / split.edges[c]);
+      return edge->second + static_cast<std::size_t>(along - 1);
     }
     return next_++;
   }
@@ -40,7 +62,6 @@ class Numbering {
 
  private:
   std::size_t next_;
-  int segments_;
   std::unordered_map<std::uint64_t, std::size_t> edges_;  // → the first number on it
 };
 
@@ -58,59 +79,85 @@ std::vector<std::uint32_t> normal_groups(const Surface& surface, std::size_t& co
   return of;
 }
 
+void check_count(std::size_t count) {
+  if (count > std::numeric_limits<std::uint32_t>::max() / 4) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{} small triangles and more are too many; take fewer levels", count));
+  }
+}
+
 }  // namespace
 
 Subdivision subdivide(const Surface& surface, int segments) {
+  return subdivide(surface, [segments](std::uint32_t, std::uint32_t) { return segments; });
+}
+
+Subdivision subdivide(const Surface& surface, const EdgeSegments& segments) {
   Subdivision fine;
-  fine.segments = segments;
-  std::vector<std::array<int, 3>> steps;  // toward A, B, C
-  for (int i = 0; i <= segments; ++i) {
-    for (int j = 0; i + j <= segments; ++j) {
-      steps.push_back({segments - i - j, i, j});
-      fine.lattice.push_back(glm::dvec3(segments - i - j, i, j) / static_cast<double>(segments));
-    }
-  }
   std::size_t normal_count = 0;
   const std::vector<std::uint32_t> normal_of = normal_groups(surface, normal_count);
-  Numbering vertices(surface.render_vertices.size(), segments), positions(surface.vertex_count(), segments),
-      normals(normal_count, segments);
-  const std::size_t triangles = surface.triangle_count(),
-                    small = static_cast<std::size_t>(segments) * static_cast<std::size_t>(segments);
-  if (triangles * fine.lattice.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("{} triangles split into {} each are too many; take fewer levels", triangles, small));
+  Numbering vertices(surface.render_vertices.size()), positions(surface.vertex_count()),
+      normals(normal_count);
+
+  std::vector<Split> splits(surface.triangle_count());
+  std::size_t point_count = 0, small_count = 0;
+  for (std::size_t t = 0; t < splits.size(); ++t) {
+    const auto welded = [&](std::size_t c) {
+      return surface.render_vertices[surface.triangles[3 * t + c % 3]].welded;
+    };
+    for (std::size_t c = 0; c < 3; ++c) splits[t].edges[c] = segments(welded(c + 1), welded(c + 2));
+    splits[t].segments = std::ranges::max(splits[t].edges);
+    const auto n = static_cast<std::size_t>(splits[t].segments);
+    point_count += (n + 1) * (n + 2) / 2;
+    small_count += n * n;
+    check_count(std::max(point_count, small_count));
   }
-  fine.points.reserve(triangles * fine.lattice.size());
-  fine.triangles.reserve(3 * triangles * small);
-  for (std::size_t t = 0; t < triangles; ++t) {
+  fine.points.reserve(point_count);
+  fine.triangles.reserve(3 * small_count);
+
+  std::vector<std::uint32_t> ids;  // of a triangle's points, in rows: i segments toward B, j toward C
+  for (std::size_t t = 0; t < splits.size(); ++t) {
+    fine.first_point.push_back(static_cast<std::uint32_t>(fine.points.size()));
+    fine.first_triangle.push_back(static_cast<std::uint32_t>(fine.triangle_count()));
     std::array<std::uint32_t, 3> corners{}, welded{}, normal{};
     for (std::size_t c = 0; c < 3; ++c) {
       corners[c] = surface.triangles[3 * t + c];
       welded[c] = surface.render_vertices[corners[c]].welded;
       normal[c] = normal_of[corners[c]];
     }
-    const std::size_t first = fine.points.size();
-    for (const auto& step : steps) {
-      const std::size_t id = vertices.number(corners, step);
-      if (fine.vertices.size() <= id) fine.vertices.resize(std::max(id + 1, vertices.count()));
-      fine.vertices[id] = {static_cast<std::uint32_t>(positions.number(welded, step)),
-                           static_cast<std::uint32_t>(normals.number(normal, step))};
-      fine.points.push_back(static_cast<std::uint32_t>(id));
+    const Split& split = splits[t];
+    const int n = split.segments;
+    ids.clear();
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) {
+        const Steps own{n - i - j, i, j}, steps = snapped(own, split);
+        const std::size_t id = vertices.number(corners, steps, split);
+        ids.push_back(static_cast<std::uint32_t>(id));
+        if (steps != own) continue;  // it comes by itself
+        if (fine.vertices.size() <= id) fine.vertices.resize(std::max(id + 1, vertices.count()));
+        fine.vertices[id] = {static_cast<std::uint32_t>(positions.number(welded, steps, split)),
+                             static_cast<std::uint32_t>(normals.number(normal, steps, split))};
+        fine.points.push_back({static_cast<std::uint32_t>(id), static_cast<std::uint16_t>(i),
+                               static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(n)});
+      }
     }
     // Row i begins after i rows of n+1, n, … points.
     const auto point = [&](int i, int j) {
-      return fine.points[first + static_cast<std::size_t>(i * (2 * segments + 3 - i) / 2 + j)];
+      return ids[static_cast<std::size_t>(i * (2 * n + 3 - i) / 2 + j)];
     };
-    for (int i = 0; i < segments; ++i) {
-      for (int j = 0; i + j < segments; ++j) {
-        for (const auto id : {point(i, j), point(i + 1, j), point(i, j + 1)}) fine.triangles.push_back(id);
-        if (i + j + 1 == segments) continue;
-        for (const auto id : {point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)})
-          fine.triangles.push_back(id);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      if (a == b || b == c || c == a) return;
+      for (const std::uint32_t id : {a, b, c}) fine.triangles.push_back(id);
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        add(point(i, j), point(i + 1, j), point(i, j + 1));
+        if (i + j + 1 < n) add(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
       }
     }
   }
+  fine.first_point.push_back(static_cast<std::uint32_t>(fine.points.size()));
+  fine.first_triangle.push_back(static_cast<std::uint32_t>(fine.triangle_count()));
   // Render vertices that no triangle has keep their places.
   fine.vertices.resize(vertices.count());
   fine.position_count = positions.count();

@@ -1,8 +1,9 @@
-// A surface's triangles split evenly, for geometry finer than the mesh: n segments an edge, n² triangles
-// each.
+// A surface's triangles split, for geometry finer than the mesh: each edge into a power of two of segments of
+// its own, so that only what needs small triangles has them, or all alike.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -16,22 +17,51 @@ struct FineVertex {
   std::uint32_t position = 0, normal = 0;
 };
 
-// Ids count up from the surface's own: positions begin with the welded vertices, vertices with the render
-// vertices, each in their order; then those on edges, then those inside triangles. On an edge there is one
-// point for all triangles beside it, so nothing gapes.
-struct Subdivision {
-  int segments = 1;  // n
-  std::size_t position_count = 0, normal_count = 0;
-  std::vector<FineVertex> vertices;
-  // Points of a triangle in rows: i segments from corner B, j from corner C, (n+1)(n+2)/2 of them a triangle.
-  std::vector<glm::dvec3> lattice;       // barycentric coordinates of those points, the same in all triangles
-  std::vector<std::uint32_t> points;     // [triangle · lattice.size() + point] → vertex
-  std::vector<std::uint32_t> triangles;  // three vertices each; those of triangle t begin at 3 t n²
-
-  std::size_t triangle_count() const { return triangles.size() / 3; }
+// A vertex as one of the triangles that were split sees it: `toward_b` and `toward_c` of its `segments` lead
+// from the first corner to the second and the third.
+struct FinePoint {
+  std::uint32_t vertex = 0;
+  std::uint16_t toward_b = 0, toward_c = 0, segments = 1;
+  glm::dvec3 barycentric() const {
+    return glm::dvec3(segments - toward_b - toward_c, toward_b, toward_c) / static_cast<double>(segments);
+  }
 };
 
-// `segments` ≥ 1. Throws Error(bad_input) where the numbers of vertices do not fit into 32 bits.
+// Ids count up from the surface's own: positions begin with the welded vertices, vertices with the render
+// vertices, each in their order; then those on edges and inside triangles. On an edge there are the same
+// points for all triangles beside it, so nothing gapes.
+struct Subdivision {
+  std::size_t position_count = 0, normal_count = 0;
+  std::vector<FineVertex> vertices;
+  std::vector<FinePoint> points;         // of each triangle in turn
+  std::vector<std::uint32_t> triangles;  // three vertices each; of each triangle in turn
+  // Where those of triangle t begin; one entry more than there are triangles.
+  std::vector<std::uint32_t> first_point, first_triangle;
+
+  std::size_t triangle_count() const { return triangles.size() / 3; }
+  // What becomes of `count` triangles from `first` on.
+  struct Range {
+    std::uint32_t first, count;
+  };
+  Range small_triangles(std::uint32_t first, std::uint32_t count) const {
+    return {first_triangle[first], first_triangle[first + count] - first_triangle[first]};
+  }
+  // Calls work(triangle, its point) for all of them.
+  template <typename Work>
+  void for_each_point(const Work& work) const {
+    for (std::size_t t = 0; t + 1 < first_point.size(); ++t)
+      for (std::uint32_t i = first_point[t]; i < first_point[t + 1]; ++i) work(t, points[i]);
+  }
+};
+
+// Into how many segments the edge between two welded vertices is split; the same whichever comes first.
+using EdgeSegments = std::function<int(std::uint32_t, std::uint32_t)>;
+
+// A triangle is split as its finest edge; where another edge has fewer segments its points move to that
+// edge's nearest ones, and small triangles that are none any more are left out. Segments: 1 … 1023, any for
+// all edges alike, powers of two otherwise. Throws Error(bad_input) where the numbers of vertices do not fit
+// into 32 bits.
+Subdivision subdivide(const Surface& surface, const EdgeSegments& segments);
 Subdivision subdivide(const Surface& surface, int segments);
 
 // A subdivision moved off the surface, in whatever unit.

@@ -63,18 +63,6 @@ void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
   glUniformMatrix4fv(p.uniform(name), 1, GL_FALSE, glm::value_ptr(f));
 }
 
-// Whether the profile is the one that render.frag has without a table.
-bool is_sinusoid(const Profile& profile) {
-  for (std::size_t i = 0; i < profile.f.size(); ++i) {
-    const double phase =
-        2 * glm::pi<double>() * static_cast<double>(i) / static_cast<double>(profile.f.size());
-    if (std::abs(profile.f[i] - std::cos(phase)) > 1e-9 ||
-        std::abs(profile.derivative[i] + std::sin(phase)) > 1e-9)
-      return false;
-  }
-  return true;
-}
-
 // Holds all that the surface draws, lines on its edges included: nothing where it is all on the other side of
 // one of the four planes through the eye, or behind it; the whole picture where only a part is behind.
 gpu::Rectangle covered(const std::vector<glm::vec4>& positions, const glm::dmat4& view_projection, int width,
@@ -132,10 +120,13 @@ struct GroundFrame {
 RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<DrawPart> parts,
                        const std::vector<std::vector<TextureLevel>>& textures,
                        const std::string& shader_folder)
-    : look_(look), profile_(profile), parts_(std::move(parts)), shader_folder_(shader_folder) {
+    : look_(look),
+      profile_(profile),
+      profile_texture_(profile),
+      parts_(std::move(parts)),
+      shader_folder_(shader_folder) {
   gpu::Defines defines = surface_defines();
   if (look.shadows) defines.emplace_back("SHADOWS", "1");
-  if (is_sinusoid(profile)) defines.emplace_back("SINUSOID", "1");
   const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
   surface_ = make_programs(files, defines);
   if (look.shadows || look.ground) depth_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
@@ -163,38 +154,21 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
   textures_.emplace_back(std::vector<TextureLevel>{{1, 1, {255, 255, 255, 255}}});
   scene_ = gpu::Buffer(sizeof(SceneBlock));
   glCreateVertexArrays(1, &vertex_array_);
-
-  std::vector<glm::vec2> table(Profile::size);
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = glm::vec2(profile.f[i], profile.derivative[i]);
-  glCreateTextures(GL_TEXTURE_1D, 1, &profile_texture_);
-  glTextureStorage1D(profile_texture_, 1, GL_RG32F, Profile::size);
-  glTextureSubImage1D(profile_texture_, 0, 0, Profile::size, GL_RG, GL_FLOAT, table.data());
-  glTextureParameteri(profile_texture_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(profile_texture_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTextureParameteri(profile_texture_, GL_TEXTURE_WRAP_S, GL_REPEAT);
   gpu::check("while preparing to render");
 }
 
 gpu::Defines RenderPass::surface_defines() const {
   if (look_.displaced) return {{"PLAIN", "1"}, {"DISPLACED", "1"}};
-  gpu::Defines defines;
+  gpu::Defines defines = wave_defines(profile_, look_.smooth_blend);
   if (look_.plain) defines.emplace_back("PLAIN", "1");
-  if (!look_.smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
   if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
   if (look_.field) defines.emplace_back("FIELD", "1");
-  if (profile_.fine_waves > 0) {
-    // Their decimals: a uniform that every pixel reads costs more.
-    defines.emplace_back("FINE_WAVES", fmt::format("{}.0", profile_.fine_waves));
-    defines.emplace_back("COARSE_SHARE", fmt::format("{:.9e}", profile_.coarse));
-    defines.emplace_back("FINE_SHARE", fmt::format("{:.9e}", profile_.fine));
-  }
   return defines;
 }
 
 RenderPass::~RenderPass() {
-  const unsigned textures[] = {profile_texture_, shadow_texture_, top_texture_, ground_textures_[0],
-                               ground_textures_[1]};
-  glDeleteTextures(5, textures);
+  const unsigned textures[] = {shadow_texture_, top_texture_, ground_textures_[0], ground_textures_[1]};
+  glDeleteTextures(4, textures);
   const unsigned framebuffers[] = {shadow_framebuffer_, top_framebuffer_};
   glDeleteFramebuffers(2, framebuffers);
   glDeleteVertexArrays(1, &vertex_array_);
@@ -242,7 +216,7 @@ void RenderPass::bind_surface(const SurfaceBuffers& surface) {
     surface.relief.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
   else if (look_.field)
     surface.field.bind_items(SurfaceBuffers::own_unit + 3, gpu::Buffer::Item::vec4);
-  glBindTextureUnit(1, profile_texture_);
+  profile_texture_.bind();
   glBindVertexArray(vertex_array_);
 }
 

@@ -12,6 +12,7 @@
 #include "gpu/program.h"
 #include "gpu/target.h"
 #include "passes/profile.h"
+#include "passes/profile_texture.h"
 #include "passes/surface_buffers.h"
 #include "passes/texture.h"
 
@@ -37,7 +38,7 @@ struct Look {
   bool smooth_blend = true, full_gradient = true;
   bool plain = false;      // no waves at all
   bool field = false;      // the surface carries a solved wrinkle field (VertexWaves::field)
-  bool displaced = false;  // the surface is a displaced one (SurfaceBuffers::show); without waves of its own
+  bool displaced = false;  // the surface is a displaced one (DisplacementPass); without waves of its own
   bool phong = false;      // with plain: textured Phong, the yardstick of the benchmark
   bool shadows = false, ground = false, wireframe = false;
   double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;
@@ -117,13 +118,14 @@ class RenderPass {
 
   Look look_;
   Profile profile_;
+  ProfileTexture profile_texture_;
   std::vector<DrawPart> parts_;
   std::vector<Texture> textures_;  // the last is white, for parts without one
   std::string shader_folder_;
   Programs surface_, aov_;
   gpu::Program depth_, lines_, backdrop_, ground_cast_, ground_blur_;
   gpu::Buffer scene_;
-  unsigned vertex_array_ = 0, profile_texture_ = 0;
+  unsigned vertex_array_ = 0;
   unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;
   std::array<unsigned, 2> ground_textures_{};
   glm::dmat4 shadow_matrix_{1}, top_matrix_{1};

@@ -60,17 +60,21 @@ std::vector<glm::vec4> field_corners(const std::vector<FieldTriangle>& field, co
   });
 }
 
-// Calls work(fine vertex, the three render vertices of its triangle, barycentric coordinates) for every point
-// of every triangle; those on edges come once for each.
-template <typename Work>
-void for_each_point(const Surface& surface, const Subdivision& fine, const Work& work) {
-  const std::size_t points = fine.lattice.size();
-  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
-    const RenderVertex* corners[3];
-    for (std::size_t c = 0; c < 3; ++c) corners[c] = &surface.render_vertices[surface.triangles[3 * t + c]];
-    for (std::size_t p = 0; p < points; ++p)
-      work(fine.points[t * points + p], corners, glm::vec3(fine.lattice[p]));
-  }
+// Uv as the render vertices of a subdivision have them, normals still without direction.
+std::vector<GpuRenderVertex> interpolated_vertices(const Surface& surface, const Subdivision& fine) {
+  std::vector<GpuRenderVertex> vertices(fine.vertices.size());
+  fine.for_each_point([&](std::size_t t, const FinePoint& point) {
+    glm::vec2 uv(0), map(0);
+    const glm::vec3 b(point.barycentric());
+    for (int c = 0; c < 3; ++c) {
+      const RenderVertex& corner =
+          surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]];
+      uv += b[c] * corner.uv;
+      map += b[c] * corner.normal_uv;
+    }
+    vertices[point.vertex] = {glm::vec4(0, 0, 0, uv.x), glm::vec4(uv.y, map, 0)};
+  });
+  return vertices;
 }
 
 }  // namespace
@@ -176,29 +180,29 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const Subdivision& fine)
   }));
   if (has_colours(surface)) {
     std::vector<glm::vec4> colours(fine.vertices.size());
-    for_each_point(surface, fine, [&](std::uint32_t id, const RenderVertex* const* v, const glm::vec3& b) {
-      colours[id] = b.x * v[0]->colour + b.y * v[1]->colour + b.z * v[2]->colour;
+    fine.for_each_point([&](std::size_t t, const FinePoint& point) {
+      const glm::vec3 b(point.barycentric());
+      glm::vec4& colour = colours[point.vertex] = glm::vec4(0);
+      for (int c = 0; c < 3; ++c)
+        colour +=
+            b[c] * surface.render_vertices[surface.triangles[3 * t + static_cast<std::size_t>(c)]].colour;
     });
     render_colours = gpu::Buffer(colours);
   }
   positions = gpu::Buffer(vertex_count * sizeof(glm::vec4));
   relief = gpu::Buffer(vertex_count * sizeof(glm::vec4));
-  render_vertices = gpu::Buffer(fine.vertices.size() * sizeof(GpuRenderVertex));
+  render_vertices = gpu::Buffer(interpolated_vertices(surface, fine));
   for (gpu::Buffer* unused : {&offsets, &neighbours, &constants, &waves, &world_waves, &phases, &states})
     *unused = gpu::Buffer(std::size_t{0});
 }
 
-void SurfaceBuffers::show(const Surface& surface, const Subdivision& fine,
-                          const DisplacedSurface& displaced) {
+void SurfaceBuffers::show(const Subdivision& fine, const DisplacedSurface& displaced) {
   positions.write(mapped(vertex_count, [&](std::size_t i) { return single(displaced.positions[i], 1); }));
   relief.write(mapped(vertex_count, [&](std::size_t i) { return glm::vec4(displaced.relief[i]); }));
-  std::vector<GpuRenderVertex> vertices(fine.vertices.size());
-  for_each_point(surface, fine, [&](std::uint32_t id, const RenderVertex* const* v, const glm::vec3& b) {
-    const glm::vec2 uv = b.x * v[0]->uv + b.y * v[1]->uv + b.z * v[2]->uv;
-    const glm::vec2 map = b.x * v[0]->normal_uv + b.y * v[1]->normal_uv + b.z * v[2]->normal_uv;
-    vertices[id] = {glm::vec4(glm::vec3(displaced.normals[fine.vertices[id].normal]), uv.x),
-                    glm::vec4(uv.y, map, 0)};
-  });
+  auto vertices = render_vertices.read<GpuRenderVertex>();
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    vertices[v].normal_u =
+        glm::vec4(glm::vec3(displaced.normals[fine.vertices[v].normal]), vertices[v].normal_u.w);
   render_vertices.write(vertices);
 }
 

@@ -18,9 +18,10 @@ struct SurfaceBuffers {
   // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.
   SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves,
                  const ModelUnits& units, std::uint32_t seed);
-  // A displaced surface: what it looks like comes by `show`, and only Look::displaced draws it.
+  // A displaced surface: what it looks like comes by DisplacementPass, or by `show` where it was computed
+  // elsewhere; only Look::displaced draws it.
   SurfaceBuffers(const Surface& surface, const Subdivision& fine);
-  void show(const Surface& surface, const Subdivision& fine, const DisplacedSurface& displaced);
+  void show(const Subdivision& fine, const DisplacedSurface& displaced);
   // Another carried field, where the surface was made with one.
   void carry(const std::vector<FieldTriangle>& field, const ModelUnits& units);
 

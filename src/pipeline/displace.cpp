@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -25,50 +27,131 @@ glm::dvec3 to_glm(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// The waves on the edge that has most of them. Squeezed cloth keeps its waves, so the rest pose tells; but
-// what the bias gathers it gathers at rest.
-double most_waves_on_an_edge(const LoadedScene& scene) {
-  const Surface& surface = scene.surface();
-  const VertexWaves& waves = scene.waves;
-  const auto length_of_wave = [&](std::size_t v) {
-    const glm::dvec3 p = waves.bias.empty() ? glm::dvec3(0) : waves.bias[v];
-    return waves.wavelength[v] * (1 - glm::dot(p, p)) / std::max(1, scene.profile.fine_waves);
-  };
-  double most = 0;
-  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
-    for (std::uint32_t i = surface.neighbours.offsets[v]; i < surface.neighbours.offsets[v + 1]; ++i) {
-      const std::uint32_t other = surface.neighbours.items[i];
-      if (!(std::max(waves.mask[v], waves.mask[other]) > 0)) continue;
-      const double length = glm::distance(surface.rest[v], surface.rest[other]);
-      most = std::max(most, length / std::min(length_of_wave(v), length_of_wave(other)));
-    }
-  }
-  scene.visit_fields([&](const std::vector<FieldTriangle>& field) {
-    for (const FieldTriangle& triangle : field) {
-      if (*std::max_element(triangle.amplitude.begin(), triangle.amplitude.end()) == 0) continue;
-      for (const auto& turns : triangle.turns) {
-        const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
-        most = std::max(most, *high - *low);
+// The most waves on each edge of the welded surface.
+class EdgeWaves {
+ public:
+  // Squeezed cloth keeps its waves, so the rest pose tells; but what the bias gathers it gathers at rest.
+  explicit EdgeWaves(const LoadedScene& scene) {
+    const Surface& surface = scene.surface();
+    const VertexWaves& waves = scene.waves;
+    const auto length_of_wave = [&](std::size_t v) {
+      const glm::dvec3 p = waves.bias.empty() ? glm::dvec3(0) : waves.bias[v];
+      return waves.wavelength[v] * (1 - glm::dot(p, p)) / std::max(1, scene.profile.fine_waves);
+    };
+    for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
+      for (std::uint32_t i = surface.neighbours.offsets[v]; i < surface.neighbours.offsets[v + 1]; ++i) {
+        const std::uint32_t other = surface.neighbours.items[i];
+        if (!(std::max(waves.mask[v], waves.mask[other]) > 0)) continue;
+        const double length = glm::distance(surface.rest[v], surface.rest[other]);
+        add(v, other, length / std::min(length_of_wave(v), length_of_wave(other)));
       }
     }
-  });
-  return most;
+    scene.visit_fields([&](const std::vector<FieldTriangle>& field) {
+      for (std::size_t t = 0; t < field.size(); ++t) {
+        if (*std::ranges::max_element(field[t].amplitude) == 0) continue;
+        for (const auto& turns : field[t].turns) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            const auto welded = [&](std::size_t k) {
+              return surface.render_vertices[surface.triangles[3 * t + k % 3]].welded;
+            };
+            add(welded(c), welded(c + 1), std::abs(turns[(c + 1) % 3] - turns[c]));
+          }
+        }
+      }
+    });
+  }
+  double on(std::uint32_t a, std::uint32_t b) const {
+    const auto found = most_.find(key(a, b));
+    return found == most_.end() ? 0 : found->second;
+  }
+  double most() const {
+    double most = 0;
+    for (const auto& [edge, waves] : most_) most = std::max(most, waves);
+    return most;
+  }
+
+ private:
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{std::min(a, b)} << 32U | std::max(a, b);
+  }
+  void add(std::uint32_t a, std::uint32_t b, double waves) {
+    double& most = most_[key(a, b)];
+    most = std::max(most, waves);
+  }
+  std::unordered_map<std::uint64_t, double> most_;
+};
+
+// How many pixels a length of one at rest (metres) takes at most in the scene's pictures: held against the
+// eye as near as the clip's bounds come, and stretched by half.
+double most_pixels_a_metre(const LoadedScene& scene) {
+  const auto& output = scene.settings.output;
+  const int frames = scene.settings.camera.name.empty() ? 1 : scene.animation.timeline().frame_count;
+  double most = 0;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const passes::View view = scene.view(frame);
+    const glm::dmat4 rows = glm::transpose(view.view_projection);
+    const double nearest = glm::dot(rows[3], glm::dvec4(view.bounds_centre, 1)) -
+                           view.bounds_radius * glm::length(glm::dvec3(rows[3]));
+    const double across = std::max(output.width * glm::length(glm::dvec3(rows[0])),
+                                   output.height * glm::length(glm::dvec3(rows[1])));
+    most = std::max(most, 0.5 * across / std::max(nearest, 1e-3 * view.bounds_radius));
+  }
+  return 1.5 * most / scene.units.metres;
 }
 
-int chosen_levels(const LoadedScene& scene, std::optional<int> given) {
-  return given ? *given : levels_for(scene);
+// The least number of halvings that gives so many segments.
+int halvings(double segments) {
+  int levels = 0;
+  while (levels < most_levels && std::exp2(levels) < segments) ++levels;
+  return levels;
 }
 
 }  // namespace
 
 int levels_for(const LoadedScene& scene) {
-  return levels_for(most_waves_on_an_edge(scene), scene.surface().triangle_count(), most_triangles);
+  return levels_for(EdgeWaves(scene).most(), scene.surface().triangle_count(), most_triangles);
+}
+
+Subdivision split_as_needed(const LoadedScene& scene) {
+  const Surface& surface = scene.surface();
+  const EdgeWaves waves(scene);
+  const double pixels = most_pixels_a_metre(scene);
+  const auto wanted = [&](std::uint32_t a, std::uint32_t b) {
+    const double visible = pixels * glm::distance(surface.rest[a], surface.rest[b]);
+    return halvings(std::min(segments_per_wave * waves.on(a, b), visible));
+  };
+  std::vector<std::size_t> triangles(most_levels + 1, 0);  // by their finest edge
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+    int finest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto welded = [&](std::size_t k) {
+        return surface.render_vertices[surface.triangles[3 * t + k % 3]].welded;
+      };
+      finest = std::max(finest, wanted(welded(c), welded(c + 1)));
+    }
+    ++triangles[static_cast<std::size_t>(finest)];
+  }
+  int fewer = 0;
+  const auto small_triangles = [&] {
+    double sum = 0;
+    for (int level = 0; level <= most_levels; ++level)
+      sum += static_cast<double>(triangles[static_cast<std::size_t>(level)]) *
+             std::exp2(2 * std::max(level - fewer, 0));
+    return sum;
+  };
+  while (fewer < most_levels && small_triangles() > most_triangles) ++fewer;
+  if (fewer > 0) {
+    log::warn(fmt::format(
+        "edges are halved {} times less often than the waves need, to stay below {:.0f} triangles", fewer,
+        most_triangles));
+  }
+  return subdivide(surface,
+                   [&](std::uint32_t a, std::uint32_t b) { return 1 << std::max(wanted(a, b) - fewer, 0); });
 }
 
 int levels_for(double waves, std::size_t triangles, double most) {
   const double segments = segments_per_wave * waves;
-  int levels = 0;
-  while (levels < most_levels && std::exp2(levels) < segments) ++levels;
+  int levels = halvings(segments);
   const int wanted = levels;
   while (levels > 0 && static_cast<double>(triangles) * std::exp2(2 * levels) > most) --levels;
   if (levels < wanted || std::exp2(levels) < segments) {
@@ -80,27 +163,22 @@ int levels_for(double waves, std::size_t triangles, double most) {
   return levels;
 }
 
-Displacement::Displacement(const LoadedScene& scene, std::optional<int> levels)
-    : scene_(scene),
-      reference_(scene),
-      profile_(reference_profile(scene)),
-      levels_(chosen_levels(scene, levels)),
-      mesh_(subdivide(scene.surface(), 1 << levels_)) {}
+Displacement::Displacement(const LoadedScene& scene, Subdivision mesh)
+    : scene_(scene), reference_(scene), profile_(reference_profile(scene)), mesh_(std::move(mesh)) {}
 
 DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
   const auto triangles = reference_triangles(reference_, snapshot);
   const auto& shading = scene_.settings.shading;
   const auto blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
-  const std::size_t points = mesh_.lattice.size();
-  std::vector<reference::Displaced> displaced(triangles.size() * points);
+  std::vector<reference::Displaced> displaced(mesh_.points.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
     Eigen::Matrix3d directions;
     for (int c = 0; c < 3; ++c)
       directions.col(c) =
           snapshot.frames.normal.col(static_cast<Index>(triangles[t].welded[static_cast<std::size_t>(c)]));
-    for (std::size_t p = 0; p < points; ++p) {
-      const glm::dvec3 b = mesh_.lattice[p];
-      displaced[t * points + p] =
+    for (std::uint32_t p = mesh_.first_point[t]; p < mesh_.first_point[t + 1]; ++p) {
+      const glm::dvec3 b = mesh_.points[p].barycentric();
+      displaced[p] =
           reference::displace(triangles[t], directions, {b.x, b.y, b.z}, profile_, blend, shading.cavity);
     }
   });
@@ -114,7 +192,7 @@ DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
   result.relief.assign(mesh_.position_count, glm::dvec4(0));
   std::vector<int> counts(mesh_.position_count, 0);
   for (std::size_t i = 0; i < displaced.size(); ++i) {
-    const FineVertex vertex = mesh_.vertices[mesh_.points[i]];
+    const FineVertex vertex = mesh_.vertices[mesh_.points[i].vertex];
     const reference::Displaced& point = displaced[i];
     result.positions[vertex.position] += to_glm(point.position);
     result.base[vertex.position] += to_glm(point.base);

@@ -1,7 +1,6 @@
-// A scene's wrinkles as geometry: its surface split finely, and moved by the waves of a moment.
+// A scene's wrinkles as geometry: its surface split finely, and moved by the waves of a moment, in double
+// precision (passes/displacement.h does the latter on the GPU).
 #pragma once
-
-#include <optional>
 
 #include "mesh/subdivide.h"
 #include "passes/surface_buffers.h"
@@ -18,12 +17,16 @@ int levels_for(const LoadedScene& scene);
 // most so many after.
 int levels_for(double waves, std::size_t triangles, double most_triangles);
 
+// The scene's surface with every edge halved as often as the waves of its own need it, whatever frame, and no
+// further than to a pixel of the scene's pictures: cloth without waves stays as coarse as it is. All edges
+// are halved less often where there were more than four million triangles (a warning says so).
+Subdivision split_as_needed(const LoadedScene& scene);
+
 class Displacement {
  public:
-  // Edges are halved `levels` times, or as levels_for says.
-  Displacement(const LoadedScene& scene, std::optional<int> levels);
+  // `mesh`: of the scene's surface.
+  Displacement(const LoadedScene& scene, Subdivision mesh);
 
-  int levels() const { return levels_; }
   const Subdivision& mesh() const { return mesh_; }
   // In model units; `metres` takes them to the world. Throws Error(check_failed) where something is not
   // finite.
@@ -35,7 +38,6 @@ class Displacement {
   const LoadedScene& scene_;
   ReferenceScene reference_;
   reference::Profile profile_;
-  int levels_;
   Subdivision mesh_;
 };
 

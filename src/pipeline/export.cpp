@@ -50,25 +50,24 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
     mesh.vertices[v].position = fine.vertices[v].position;
     mesh.vertices[v].normal = fine.vertices[v].normal;
   }
-  for (std::size_t i = 0; i < fine.points.size(); ++i) {
-    const std::uint32_t* corners = &surface.triangles[3 * (i / fine.lattice.size())];
-    const glm::vec3 b(fine.lattice[i % fine.lattice.size()]);
-    auto& vertex = mesh.vertices[fine.points[i]];
+  fine.for_each_point([&](std::size_t t, const FinePoint& point) {
+    const std::uint32_t* corners = &surface.triangles[3 * t];
+    const glm::vec3 b(point.barycentric());
+    auto& vertex = mesh.vertices[point.vertex];
     vertex.uv = glm::vec2(0);
     vertex.colour = glm::vec4(0);
     for (int c = 0; c < 3; ++c) {
       vertex.uv += b[c] * surface.render_vertices[corners[c]].uv;
       vertex.colour += b[c] * surface.render_vertices[corners[c]].colour;
     }
-  }
+  });
   mesh.triangles = fine.triangles;
   const auto draws = scene.draw_parts();
-  const auto small = static_cast<std::uint32_t>(fine.segments * fine.segments);
   for (std::size_t p = 0; p < draws.size(); ++p) {
     const Part& part = surface.parts[p];
+    const auto [first, count] = fine.small_triangles(part.first_triangle, part.triangle_count);
     mesh.parts.push_back({part.mesh, part.material_name, draws[p].base_colour, draws[p].two_sided,
-                          part.has_uv, part.has_colours, part.first_triangle * small,
-                          part.triangle_count * small});
+                          part.has_uv, part.has_colours, first, count});
   }
   return mesh;
 }
@@ -80,13 +79,14 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
   pipeline::LoadedScene scene(request.scene);
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_output(request.output, frames);
-  const pipeline::Displacement displacement(scene, request.levels);
+  const int levels = request.levels ? *request.levels : pipeline::levels_for(scene);
+  const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << levels));
   std::optional<pipeline::Outside> outside;
   if (!request.outside.empty()) outside.emplace(scene, request.outside);
   io::MeshFile mesh = mesh_of(scene, displacement.mesh());
 
   ExportReport report;
-  report.levels = displacement.levels();
+  report.levels = levels;
   report.positions = displacement.mesh().position_count;
   report.triangles = displacement.mesh().triangle_count();
   std::optional<io::PointCacheWriter> cache;

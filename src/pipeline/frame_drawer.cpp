@@ -35,14 +35,21 @@ passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
 }  // namespace
 
 FrameDrawer::Geometry::Geometry(const LoadedScene& scene, const RenderRequest& request)
-    : displacement(scene, request.levels), buffers(scene.surface(), displacement.mesh()) {
-  if (!request.outside.empty()) outside.emplace(scene, request.outside);
+    : mesh(request.levels ? subdivide(scene.surface(), 1 << *request.levels) : split_as_needed(scene)),
+      buffers(scene.surface(), mesh),
+      pass(mesh, scene.profile, scene.settings.shading.blend == Blend::smooth, scene.look().field,
+           scene.settings.shading.cavity, request.shader_folder) {
+  if (!request.outside.empty()) held.emplace(scene, mesh, request.outside);
 }
 
-void FrameDrawer::Geometry::move(const Surface& surface, const passes::SurfaceBuffers& posed, int frame) {
-  DisplacedSurface displaced = displacement.at(posed);
-  if (outside) outside->hold(frame, displacement.mesh(), displaced);
-  buffers.show(surface, displacement.mesh(), displaced);
+void FrameDrawer::Geometry::move(const passes::SurfaceBuffers& posed, int frame) {
+  if (!held) {
+    pass.run(posed, buffers);
+    return;
+  }
+  DisplacedSurface displaced = held->displacement.at(posed);
+  held->outside.hold(frame, mesh, displaced);
+  buffers.show(mesh, displaced);
 }
 
 FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
@@ -62,10 +69,10 @@ FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
 std::vector<passes::DrawPart> FrameDrawer::parts() const {
   auto parts = scene_.draw_parts();
   if (geometry_) {
-    const auto segments = static_cast<std::uint32_t>(geometry_->displacement.mesh().segments);
     for (passes::DrawPart& part : parts) {
-      part.first_triangle *= segments * segments;
-      part.triangle_count *= segments * segments;
+      const auto small = geometry_->mesh.small_triangles(part.first_triangle, part.triangle_count);
+      part.first_triangle = small.first;
+      part.triangle_count = small.count;
     }
   }
   return parts;
@@ -93,7 +100,7 @@ bool FrameDrawer::advance_to(int frame) {
   const int step = scene_.step_of_frame(frame), before = stepper_.step();
   if (!stepper_.advance_to(step)) return false;
   // A camera of the model's own may move where the pose does not, and so may a body.
-  const bool body_moves = geometry_ && geometry_->outside && geometry_->outside->moves();
+  const bool body_moves = geometry_ && geometry_->held && geometry_->held->outside.moves();
   stays_ = stepper_.unchanged() && before == step - 1 && picture_step_ == before &&
            scene_.settings.camera.name.empty() && !body_moves;
   frame_ = frame;
@@ -108,9 +115,9 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
   } else {
     picture_.reset();
     if (geometry_) {
-      const double began = now_ms();
-      geometry_->move(scene_.surface(), stepper_.surface(), frame_);
-      entry.ms["displace"] = now_ms() - began;
+      timer_.begin("displace");
+      geometry_->move(stepper_.surface(), frame_);
+      timer_.end();
     }
     const gpu::Target& target = this->target();
     timer_.begin("render");

@@ -10,6 +10,7 @@
 
 #include "gpu/context.h"
 #include "gpu/target.h"
+#include "passes/displacement.h"
 #include "passes/render.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
@@ -38,13 +39,20 @@ class FrameDrawer {
   std::map<std::string, int> skipped() const;
 
  private:
-  // Waves as geometry, as the render pass takes it.
+  // Waves as geometry, as the render pass takes it: moved on the GPU, or here where a body holds it.
   struct Geometry {
     Geometry(const LoadedScene& scene, const RenderRequest& request);
-    void move(const Surface& surface, const passes::SurfaceBuffers& posed, int frame);
-    Displacement displacement;
-    std::optional<Outside> outside;
+    void move(const passes::SurfaceBuffers& posed, int frame);
+    Subdivision mesh;
     passes::SurfaceBuffers buffers;
+    passes::DisplacementPass pass;
+    struct Held {
+      Held(const LoadedScene& scene, const Subdivision& mesh, const std::string& body)
+          : displacement(scene, mesh), outside(scene, body) {}
+      Displacement displacement;
+      Outside outside;
+    };
+    std::optional<Held> held;
   };
   std::vector<passes::DrawPart> parts() const;
   const passes::SurfaceBuffers& drawn() { return geometry_ ? geometry_->buffers : stepper_.surface(); }

@@ -142,11 +142,10 @@ void Outside::hold(int frame, const Subdivision& mesh, DisplacedSurface& moved) 
   take(frame, base);
 
   std::vector<std::uint8_t> own(base.size(), 0), cut(base.size(), 0);  // own: the body's own surface
-  const auto small = static_cast<std::size_t>(mesh.segments) * static_cast<std::size_t>(mesh.segments);
   for (const std::size_t p : parts_) {
     const Part& part = scene_.surface().parts[p];
-    for (std::size_t i = 3 * small * part.first_triangle;
-         i < 3 * small * (part.first_triangle + std::size_t{part.triangle_count}); ++i)
+    const auto [first, count] = mesh.small_triangles(part.first_triangle, part.triangle_count);
+    for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
       own[mesh.vertices[mesh.triangles[i]].position] = 1;
   }
   tbb::parallel_for(std::size_t{0}, base.size(), [&](std::size_t i) {

@@ -10,6 +10,7 @@
 #include "config/frames.h"
 #include "pipeline.h"
 #include "pipeline/stepper.h"
+#include "pipeline/verify_displacement.h"
 #include "pipeline/verify_pictures.h"
 #include "pipeline/verify_waves.h"
 
@@ -44,6 +45,7 @@ class Verifier {
         timer_(context_.info().software),
         stepper_(scene_, timer_, request.shader_folder),
         waves_(scene_, reference_, stepper_, request.shader_folder),
+        displacement_(scene_, request.shader_folder),
         pictures_(scene_, reference_, request.shader_folder) {}
 
   VerifyReport run(const FrameCallback& on_frame) {
@@ -64,6 +66,7 @@ class Verifier {
       waves_.after_step(step);
       if (!looking) continue;
       const auto gpu = pipeline::read_snapshot(stepper_.surface());
+      displacement_.compare(stepper_.surface(), gpu);
       pictures_.compare(frame, stepper_.surface(), gpu, waves_.chain());
       report.chain_phase_rms = std::max(report.chain_phase_rms, waves_.chain_phase_difference(gpu));
       report.frames.push_back(frame);
@@ -88,6 +91,7 @@ class Verifier {
 
   void finish(VerifyReport& report) const {
     waves_.report(report.passes);
+    displacement_.report(report.passes);
     pictures_.report(report.passes);
     report.fraction_within_4 = pictures_.image().within();
     report.mean_flip = pictures_.mean_flip();
@@ -140,6 +144,7 @@ class Verifier {
   gpu::StageTimer timer_;
   pipeline::Stepper stepper_;
   pipeline::WaveComparison waves_;
+  pipeline::DisplacementComparison displacement_;
   pipeline::PictureComparison pictures_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -29,20 +30,19 @@ Surface octahedron() {
 // Places of a subdivision's positions, from any triangle that has them.
 std::vector<glm::dvec3> places(const Surface& surface, const Subdivision& fine) {
   std::vector<glm::dvec3> result(fine.position_count, glm::dvec3(NAN));
-  for (std::size_t i = 0; i < fine.points.size(); ++i) {
-    const std::size_t t = i / fine.lattice.size();
-    const glm::dvec3 b = fine.lattice[i % fine.lattice.size()];
+  fine.for_each_point([&](std::size_t t, const FinePoint& point) {
+    const glm::dvec3 b = point.barycentric();
     glm::dvec3 x(0);
     for (std::size_t c = 0; c < 3; ++c)
       x +=
           b[static_cast<int>(c)] * surface.rest[surface.render_vertices[surface.triangles[3 * t + c]].welded];
-    glm::dvec3& known = result[fine.vertices[fine.points[i]].position];
+    glm::dvec3& known = result[fine.vertices[point.vertex].position];
     // One number is one place, whoever asks; roundings of numbers up to 1.
     if (!std::isnan(known.x)) {
       EXPECT_NEAR(glm::distance(known, x), 0, 1e-15);
     }
     known = x;
-  }
+  });
   return result;
 }
 
@@ -62,6 +62,65 @@ TEST(Subdivide, AClosedSurfaceStaysClosed) {
     }
     // Euler: V − E + F = 2.
     EXPECT_EQ(fine.position_count + fine.triangle_count(), edges.size() / 2 + 2) << n;
+  }
+}
+
+// Segments from 1 to 16 an edge, as a hash of its ends has it.
+int some_segments(std::uint32_t a, std::uint32_t b) {
+  return 1 << (7 * (a + b) + 5 * a * b) % 5;
+}
+
+TEST(Subdivide, ASurfaceWhoseEdgesDifferStaysClosed) {
+  const Surface surface = octahedron();
+  std::set<int> used;
+  const Subdivision fine = subdivide(surface, [&](std::uint32_t a, std::uint32_t b) {
+    EXPECT_EQ(some_segments(a, b), some_segments(b, a));
+    return *used.insert(some_segments(a, b)).first;
+  });
+  ASSERT_GE(used.size(), 4U);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // directed
+  for (std::size_t i = 0; i < fine.triangles.size(); ++i) {
+    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    ++edges[{fine.vertices[fine.triangles[i]].position, fine.vertices[fine.triangles[next]].position}];
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+  }
+  EXPECT_EQ(fine.position_count + fine.triangle_count(), edges.size() / 2 + 2);
+  for (const glm::dvec3& x : places(surface, fine))
+    EXPECT_FALSE(std::isnan(x.x));  // no vertex of no triangle
+  EXPECT_EQ(fine.first_triangle.back(), fine.triangle_count());
+  EXPECT_EQ(fine.first_point.back(), fine.points.size());
+}
+
+TEST(Subdivide, AnEdgeHasTheSegmentsItIsGivenAndNothingTurnsOver) {
+  const Surface surface = surface_of({{0, 0, 0}, {3, 0, 0}, {0, 2, 0}}, {0, 1, 2});
+  for (const int first : {1, 2, 4, 8}) {
+    for (const int second : {1, 2, 4, 8}) {
+      for (const int third : {1, 2, 4, 8}) {
+        const Subdivision fine = subdivide(surface, [&](std::uint32_t a, std::uint32_t b) {
+          return a + b == 1 ? first : a + b == 3 ? second : third;
+        });
+        const auto x = places(surface, fine);
+        std::array<int, 3> points{};  // inside each edge
+        for (const glm::dvec3& p : x) {
+          const double beyond = p.x / 3 + p.y / 2 - 1;  // rounding: thirds
+          if (std::abs(beyond) > 1e-12 && p.y == 0 && p.x > 0) ++points[0];
+          if (std::abs(beyond) < 1e-12 && p.x > 0 && p.y > 0) ++points[1];
+          if (std::abs(beyond) > 1e-12 && p.x == 0 && p.y > 0) ++points[2];
+        }
+        EXPECT_EQ(points, (std::array{first - 1, second - 1, third - 1}));
+        double sum = 0;
+        for (std::size_t t = 0; t < fine.triangle_count(); ++t) {
+          const auto at = [&](std::size_t c) { return x[fine.vertices[fine.triangles[3 * t + c]].position]; };
+          const double area = 0.5 * glm::cross(at(1) - at(0), at(2) - at(0)).z;
+          EXPECT_GT(area, -1e-15);
+          sum += area;
+        }
+        EXPECT_NEAR(sum, 3, 1e-13);
+      }
+    }
   }
 }
 

@@ -57,7 +57,7 @@ TEST_P(Mutations, AreNoticed) {
   EXPECT_EQ(json["ok"], false);
   EXPECT_GE(json["failures"].size(), 1U);
   // Each pass is fed the shader's own inputs, so the others stand.
-  for (const std::string pass : {"skin", "crush", "relax", "render"}) {
+  for (const std::string pass : {"skin", "crush", "relax", "displacement", "render"}) {
     EXPECT_EQ(json["passes"][pass]["ok"], pass != mutation.pass) << pass;
   }
   EXPECT_EQ(json["passes"][mutation.part]["ok"], false);
@@ -80,6 +80,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mutation{"RelaxLeadsShare", "relax.comp", "turns += fraction", "turns += 1.1 * fraction", "relax"},
         Mutation{"RelaxMiddle", "relax.comp", "0.5 * (position(n)", "0.51 * (position(n)", "relax"},
         Mutation{"RelaxSign", "relax.comp", "? -1.0 : 1.0;", "? 1.0 : 1.0;", "relax"},
+        Mutation{"DisplacementPhase", "displacement.comp", "(0.5 / pi)", "(0.502 / pi)", "displacement",
+                 "displacement.relief"},
+        Mutation{"DisplacementBend", "displacement.comp", "height * (bend", "0.5 * height * (bend",
+                 "displacement", "displacement.normal"},
+        Mutation{"DisplacementMean", "displacement_mean.comp", "share * place.xyz",
+                 "1.001 * share * place.xyz", "displacement"},
         Mutation{"RenderSlope", "render.vert", "(2.0 * pi) * h", "(2.2 * pi) * h", "render"},
         Mutation{"RenderPhase", "render.vert", "(0.5 / pi)", "(0.55 / pi)", "render"},
         Mutation{"RenderLight", "common/shading.glsl", "0.6 + 0.4 *", "0.6 + 0.6 *", "render"},
