@@ -127,7 +127,7 @@ const std::vector<Key>& keys() {
       {"wrinkles", "dead_zone", number(wrinkles(&WrinkleSettings::dead_zone), {1e-4, 0.5}),
        "Compression 1 − r below which there is no wave yet; waves ease in across it."},
       {"wrinkles", "irregularity", number(wrinkles(&WrinkleSettings::irregularity), {0, 1}),
-       "Seeded noise on wavelength and place, ±25 % of a wave at 1."},
+       "Seeded noise on wavelength, place and height, ±25 % of a wave at 1."},
       {"wrinkles", "seed", whole(wrinkles(&WrinkleSettings::seed)),
        "Seed of the noise and of the first phases."},
 

@@ -38,7 +38,7 @@ struct WrinkleSettings {
   std::string profile = "sinusoid";        // sinusoid | accordion | pencil | FILE
   std::vector<std::string> only, exclude;  // names of meshes or materials
   double dead_zone = 0.005;                // of 1 − r, ≥ 1e-4
-  double irregularity = 0;                 // 0…1: seeded noise, ±25 % of wavelength and phase at 1
+  double irregularity = 0;                 // 0…1: seeded noise, ±25 % of wavelength, phase and height at 1
   std::uint32_t seed = 1;
   int fine = 0;             // finer waves along each of these; 0: none
   double fine_share = 0.5;  // their steepness over that of the coarse ones

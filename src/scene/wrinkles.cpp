@@ -134,6 +134,7 @@ VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings
       waves.wander[v] =
           0.25 * settings.irregularity *
           glm::dvec3(noise(x, settings.seed, 1), noise(x, settings.seed, 2), noise(x, settings.seed, 3));
+      waves.mask[v] *= 1 + 0.25 * settings.irregularity * noise(x, settings.seed, 4);
     }
   }
   return waves;

@@ -17,8 +17,9 @@ void select_parts(Surface& surface, const WrinkleSettings& settings);
 double default_wavelength(const Surface& surface);
 
 // The wrinkles of every vertex: mask fades from 0 on parts switched off to the strength within one wavelength
-// along the edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and place by
-// up to a quarter of a wavelength, smoothly over about three wavelengths. Needs surface.neighbours.
+// along the edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and height
+// by up to a quarter and place by up to a quarter of a wavelength, smoothly over about three wavelengths.
+// Needs surface.neighbours.
 VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings, double wavelength);
 
 }  // namespace plisse
