@@ -54,7 +54,8 @@ glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias
 
 void apply(const Canvas& canvas, const PaintStroke& stroke, const std::vector<Touch>& touches,
            std::vector<glm::dvec3>& bias) {
-  const std::vector<glm::dvec3> before = bias;
+  std::vector<glm::dvec3> before;  // what is evened out: elsewhere nothing looks at neighbours
+  if (stroke.mode == PaintStroke::Mode::smooth) before = bias;
   for (const Touch& touch : touches) {
     glm::dvec3& p = bias[touch.vertex];
     switch (stroke.mode) {
