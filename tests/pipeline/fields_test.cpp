@@ -26,6 +26,11 @@ using ::testing::HasSubstr;
 constexpr int side = 9;
 constexpr double edge = 0.05, length = edge * (side - 1), a = 0.004;
 
+// Every edge halved so often.
+Displacement halved(const LoadedScene& scene, int levels) {
+  return {scene, subdivide(scene.surface(), 1 << levels)};
+}
+
 // A square sheet in the plane z = 0 that frame n squeezes along x, and fields over it.
 class CarriedFields : public test::OpenGlTest {
  protected:
@@ -90,7 +95,7 @@ TEST_F(CarriedFields, TheAnimationsOwnWavesLieOnTop) {
   for (const int frame : {1, 3}) {
     const auto plain = bare.at(frame), carried = with.at(frame);
     EXPECT_EQ(plain.height, carried.height);  // crush and relax know nothing of what is carried
-    const Displacement without_field(bare.scene, 4), with_field(with.scene, 4);
+    const Displacement without_field = halved(bare.scene, 4), with_field = halved(with.scene, 4);
     const DisplacedSurface moved = with_field.at(with.stepper.surface());
     const auto own = heights(bare.scene, without_field.at(bare.stepper.surface())),
                both = heights(with.scene, moved);
@@ -98,7 +103,7 @@ TEST_F(CarriedFields, TheAnimationsOwnWavesLieOnTop) {
     for (std::size_t i = 0; i < own.size(); ++i) {
       highest = std::max(highest, std::abs(own[i]));
       const double x = with_field.metres(moved.base[i]).x;
-      EXPECT_NEAR(both[i] - own[i], a * std::cos(phase(x, frame, 5)), 1e-4 * a);  // issue 4
+      EXPECT_NEAR(both[i] - own[i], a * std::cos(phase(x, frame, 5)), 1e-4 * a);  // as docs/paint.md promises
     }
     // 80 % of its length are waves of W/4 √(1 − .64) = .15 W.
     EXPECT_NEAR(highest, frame == 1 ? 0 : 0.15 * 0.06, frame == 1 ? 0 : 0.002);
@@ -112,9 +117,9 @@ TEST_F(CarriedFields, EveryFrameHasItsOwnAndNoWavesBesides) {
                             field(frame, a * frame, 4 + frame));
   const std::string bias = "[bias]\nfield = \"field_####.ply\"\nuse = \"direct\"\n";
   History run(scene(bias));
-  const Displacement displacement(run.scene, std::nullopt);
   // Seven waves on eight edges in the last frame, and eight segments a wave: 2³ on an edge.
-  EXPECT_EQ(displacement.levels(), 3);
+  EXPECT_EQ(levels_for(run.scene), 3);
+  const Displacement displacement = halved(run.scene, 3);
   std::set<std::string> hashes;
   for (int frame = 1; frame <= 3; ++frame) {
     hashes.insert(run.scene.frame_hash(frame, {}));
@@ -166,7 +171,7 @@ TEST_F(CarriedFields, StrengthAndSelectionCountForThemToo) {
     settings.wrinkles.strength = strength;
     History run(settings);
     run.at(1);
-    const Displacement displacement(run.scene, 5);
+    const Displacement displacement = halved(run.scene, 5);
     const auto height = heights(run.scene, displacement.at(run.stepper.surface()));
     EXPECT_NEAR(*std::max_element(height.begin(), height.end()), strength * a, 1e-3 * a);
   }
@@ -179,7 +184,7 @@ TEST_F(CarriedFields, AlongAWaveClothIsStretchedEvenly) {
   io::write_wrinkle_field(folder_ / "field.ply", field(1, a, 5));
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement(run.scene, 6);
+  const Displacement displacement = halved(run.scene, 6);
   const DisplacedSurface moved = displacement.at(run.stepper.surface());
   const double steepness = a * 2 * pi * 5 / length;  // aω = .314
   double least = 10, most = 0;
@@ -217,7 +222,7 @@ TEST_F(CarriedFields, ClothStaysOutOfABody) {
   test::write_text(folder_ / "body.obj", box(top));
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement(run.scene, 5);
+  const Displacement displacement = halved(run.scene, 5);
   const DisplacedSurface free = displacement.at(run.stepper.surface());
   DisplacedSurface held = free;
   Outside outside(run.scene, folder_ / "body.obj");
@@ -251,7 +256,7 @@ TEST_F(CarriedFields, WhatLiesInABodyIsNotCarriedDeeper) {
   test::write_text(folder_ / "body.obj", box(0.1 * a));  // the sheet lies in it
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement(run.scene, 4);
+  const Displacement displacement = halved(run.scene, 4);
   const DisplacedSurface free = displacement.at(run.stepper.surface());
   DisplacedSurface held = free;
   Outside(run.scene, folder_ / "body.obj").hold(1, displacement.mesh(), held);
