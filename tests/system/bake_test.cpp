@@ -164,7 +164,7 @@ TEST_F(Bake, RefusesWhatCannotBeBaked) {
 }
 
 TEST_F(Bake, InBlenderTheCoarseMeshWearsTheWrinklesOfTheFineOne) {
-  if (!has_blender()) GTEST_SKIP() << "no blender on this machine";
+  if (!has_blender()) GTEST_SKIP() << "no Blender with numpy on this machine";
   write_text(folder_ / "tube_1.obj", tube(1));
   write_text(folder_ / "tube_2.obj", tube(0.8));
   write_text(folder_ / "scene.toml", "[model]\npath = \"tube_#.obj\"\n[wrinkles]\nwavelength = 0.05\n");

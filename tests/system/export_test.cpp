@@ -102,7 +102,7 @@ TEST_F(Export, RefusesOutputsItCannotWrite) {
 
 // Blender is no requirement of the project; where it is installed it opens what we write.
 TEST_F(Export, BlenderFindsTheSamePlacesNormalsAndUv) {
-  if (!has_blender()) GTEST_SKIP() << "no blender on this machine";
+  if (!has_blender()) GTEST_SKIP() << "no Blender with numpy on this machine";
   for (const std::string name : {"mesh.obj", "mesh.glb", "mesh.ply"})
     write({"--frames", "30", "--levels", "1", "-o", file(name)});
   write({"--frames", "1", "--levels", "1", "-o", file("cache.obj")});
