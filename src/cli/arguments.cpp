@@ -14,6 +14,7 @@
 #include "base/units.h"
 #include "cli/report.h"
 #include "config/options.h"
+#include "config/panel_file.h"
 #include "config/scene_file.h"
 #include "gpu/context.h"
 
@@ -67,7 +68,9 @@ void CommonArguments::apply() {
 SceneArguments::SceneArguments(CLI::App& app, const Wanted& wanted) : app_(app) {
   app.add_option(
          "input", input_,
-         described("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder"))
+         described(
+             "A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder; or a "
+             "panel file (docs/sizing.md)"))
       ->type_name("SCENE.toml|MODEL");
   for (const SceneOption& option : scene_options()) {
     if (!wanted(option.name)) continue;
@@ -86,7 +89,14 @@ SceneSettings SceneArguments::settings() const {
         ExitCode::bad_input,
         fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", app_.get_name()));
   }
-  SceneSettings scene = is_scene(input_) ? load_scene(input_) : bare_scene(input_);
+  SceneSettings scene;
+  if (!is_scene(input_)) {
+    scene = bare_scene(input_);
+  } else if (is_panel_file(input_)) {
+    scene.model.garment = input_;
+  } else {
+    scene = load_scene(input_);
+  }
   GivenOptions options;
   for (const Given& given : given_) {
     if (!given.values.empty()) options.emplace_back(given.option, given.values);

@@ -15,6 +15,7 @@
 #include "cli/size_options.h"
 #include "io/import.h"
 #include "pipeline.h"
+#include "pipeline/garment_model.h"
 #include "scene/animation.h"
 #include "sizing/mesh_fit.h"
 
@@ -286,7 +287,7 @@ std::string table(const ordered_json& info) {
 int run_info(Arguments& arguments) {
   arguments.common.apply();
   const SceneSettings scene = arguments.scene.settings();
-  const io::Model model = io::import_model(scene.model.path, import_options(scene));
+  const io::Model model = pipeline::load_model(scene);
   const Animation animation(model, {});
   ordered_json report = to_json(model, animation);
   if (!arguments.fabric.empty()) {

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "base/units.h"
-#include "config/suggest.h"
+#include "config/fabric.h"
 
 namespace plisse::cli {
 namespace {
@@ -49,24 +48,11 @@ double resolution(const char* option, const std::string& part) {
 }  // namespace
 
 sizing::Fabric fabric_option(const std::string& text) {
-  constexpr const char* option = "--fabric";
-  if (const sizing::Fabric* known = sizing::find_fabric(text)) return *known;
-  const auto parts = parts_of(text);
-  if (parts.size() != 2 && parts.size() != 4) {
-    std::vector<std::string> names;
-    for (const sizing::Fabric& fabric : sizing::fabrics()) names.push_back(fabric.name);
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format(
-            "{}: '{}' is neither B,E (bending stiffness and Young's modulus; four numbers for weft and "
-            "warp) nor a fabric{}; 'plisse size --list-fabrics' tells their names",
-            option, text, did_you_mean(text, names)));
+  try {
+    return parse_fabric(text);
+  } catch (const Error& error) {
+    throw Error(error.code, fmt::format("--fabric: {}", error.what()));
   }
-  sizing::Fabric fabric{"", "command line", {}, {}, 0.3, {}, {}};
-  fabric.weft = {bending(option, parts[0]), modulus(option, parts[1])};
-  fabric.warp = parts.size() == 2 ? fabric.weft
-                                  : sizing::Stiffness{bending(option, parts[2]), modulus(option, parts[3])};
-  return fabric;
 }
 
 sizing::FabricRange range_option(const std::string& text) {

@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "config/complaints.h"
+#include "config/fabric_key.h"
 #include "config/kinds.h"
 #include "config/suggest.h"
 
@@ -26,6 +27,8 @@ using Obstacle = DrapeSettings::Obstacle;
 struct Key {
   std::string table, name, allowed, doc;
   std::function<void(DrapeSettings&, const Node&, const fs::path& folder)> set;
+  // In place of `set`, for values of several parts: complains by itself.
+  std::function<void(DrapeSettings&, const Node&, Complaints&)> read = {};
 };
 
 constexpr config::Range lengths{1e-9, 1e6};
@@ -90,6 +93,9 @@ std::vector<Key> all_keys() {
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.wrap = config::within(config::length_of(n), lengths);
        }},
+      {"drape", "pieces", "a text or an array of texts",
+       "Of a garment: these panels alone, by name, and the seams between them (default: all).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.pieces = config::names_of(n); }},
       {"drape", "panel", "[width, height], lengths",
        "A rectangle that is meshed here, its lower left corner at the origin.",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
@@ -99,9 +105,8 @@ std::vector<Key> all_keys() {
            s.panel[k] = config::within(config::length_of((*array)[k]), lengths);
        }},
       {"drape", "vertices", "20 … 1000000",
-       "About how many vertices the panel's mesh has (default 1000), or the garment's (default: as its "
-       "fabrics ask "
-       "for).",
+       "About how many vertices the panel's or garment's mesh has (default: as its fabrics ask for; a panel "
+       "without one 1000).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.vertices = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {20, 1e6}));
        }},
@@ -143,14 +148,35 @@ std::vector<Key> all_keys() {
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.iterations = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {1, 1e6}));
        }},
-      {"material", "young", "1e-06 … 1e+15", "Young's modulus, Pa.",
+      {"material",
+       "fabric",
+       config::fabric_allowed,
+       "In place of young and thickness: the plate that is as stiff in bending and stretching, and the "
+       "mesh's "
+       "resolution. A garment's is its file's own unless it stands here.",
+       {},
+       [](DrapeSettings& s, const Node& n, Complaints& complaints) {
+         s.fabric = config::read_fabric(n, 1, complaints);
+       }},
+      {"material", "young", "1e-06 … 1e+15", "Young's modulus, Pa (default 1e6).",
        number(&DrapeSettings::young, {1e-6, 1e15})},
-      {"material", "poisson", "0 … 0.5", "Poisson's ratio.", number(&DrapeSettings::poisson, {0, 0.5})},
-      {"material", "thickness", "a length", "Thickness.",
+      {"material", "poisson", "0 … 0.5", "Poisson's ratio (default .3, or the fabric's).",
+       number(&DrapeSettings::poisson, {0, 0.5})},
+      {"material", "thickness", "a length", "Thickness (default 1 mm).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.thickness = config::within(config::length_of(n), lengths);
        }},
-      {"material", "density", "0 … 1e+06", "kg/m³.", number(&DrapeSettings::density, {0, 1e6})},
+      {"material", "density", "0 … 1e+06, or a weight such as \"120 g/m²\"",
+       "kg/m³ (default 0), or weight an area (default: the fabric's).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         if (!n.is_string()) {
+           s.density = config::within(config::number_of(n), {0, 1e6});
+           return;
+         }
+         const auto weight = sizing::parse_density(config::text_of(n));
+         if (!weight) throw Problem{fmt::format("'{}' is no weight", config::text_of(n)), ""};
+         s.weight = config::within(*weight, {0, 1e3});
+       }},
       {"loads", "gravity", "[x, y, z], m/s²", "Default [0, -9.81, 0].",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.gravity = vector_of(n, config::number_of); }},
       {"loads", "pressure", "-1e+09 … 1e+09",
@@ -248,8 +274,12 @@ void read_table(const std::string& name, const toml::table& table, DrapeSettings
                                  config::either(names), did_you_mean(toml_key.str(), names)));
       continue;
     }
+    if (name == "material") settings.material.insert(found->name);
     try {
-      found->set(settings, node, settings.file.parent_path());
+      if (found->read)
+        found->read(settings, node, complaints);
+      else
+        found->set(settings, node, settings.file.parent_path());
     } catch (const Problem& problem) {
       complaints.add(toml_key.source().begin, fmt::format("key '{}': {}; allowed: {}{}", toml_key.str(),
                                                           problem.what, found->allowed, problem.hint));
@@ -312,6 +342,12 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
   }
   if (!settings.mesh.empty() + !settings.garment.empty() + (settings.panel[0] != 0) != 1)
     complaints.add({1, 1}, "[drape] needs one of 'mesh', 'garment' and 'panel'");
+  if (settings.material.contains("fabric")) {
+    for (const char* key : {"young", "thickness"})
+      if (settings.material.contains(key))
+        complaints.add(root["material"][key].node()->source().begin,
+                       fmt::format("key '{}': follows from 'fabric'; take one of them out", key));
+  }
   complaints.throw_if_any();
   return settings;
 }

@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sizing/fabric.h"
 
 namespace plisse {
 
@@ -40,12 +43,16 @@ struct DrapeSettings {
   std::filesystem::path mesh;  // OBJ: the rest shape, cut apart by its texture coordinates' own vertices; or
   std::filesystem::path garment;  // panels and their seams (config/panel_file.h); or
   double wrap = 0;                // m: the radius that its panels are bent to before they are placed; 0: flat
-  std::array<double, 2> panel{};  // width and height of a rectangle that is meshed here
-  int vertices = 0;               // of the panel (0: 1000) or garment (0: as fine as its fabric asks for)
+  std::vector<std::string> pieces;  // of the garment, by name; none: all
+  std::array<double, 2> panel{};    // width and height of a rectangle that is meshed here
+  int vertices = 0;  // of the panel or garment; 0: as its fabric asks for, of a panel without one 1000
   std::uint32_t seed = 1;
-  bool upright = true;          // the panel stands in the plane z = 0; else it lies in y = 0
-  std::filesystem::path start;  // OBJ of the base's positions; empty: the rest shape
-  double young = 1e6, poisson = 0.3, thickness = 1e-3, density = 0;
+  bool upright = true;                   // the panel stands in the plane z = 0; else it lies in y = 0
+  std::filesystem::path start;           // OBJ of the base's positions; empty: the rest shape
+  std::optional<sizing::Fabric> fabric;  // in place of `young` and `thickness`
+  double young = 1e6, poisson = 0.3, thickness = 1e-3;
+  std::optional<double> density, weight;  // kg/m³; kg/m²; at most one of them
+  std::set<std::string> material;         // the keys of [material] that the file has
   bool stvk = false;
   double residual = 0;
   glm::dvec3 gravity{0, -9.81, 0};

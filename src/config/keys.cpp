@@ -77,6 +77,13 @@ const std::vector<Key>& keys() {
   static const std::vector<Key> all = {
       {"model", "path", model_path(model(&ModelSettings::path)),
        "The model: a file, a numbered sequence or its folder."},
+      {"model", "garment", file_path(model(&ModelSettings::garment), {".toml", ".json"}),
+       "In place of 'path': a panel file (docs/sizing.md) or GarmentCode pattern, meshed here as fine as its "
+       "fabrics ask for; a 'cache' that plisse drape wrote of it moves it."},
+      {"model", "pieces", names(model(&ModelSettings::pieces)),
+       "Panels of the garment, by name, and the seams between them; none named: all."},
+      {"model", "fabric", fabric(model(&ModelSettings::fabric)),
+       "The fabric of all the garment's panels, in place of their own; GarmentCode patterns have none."},
       {"model", "clip", name_or_index(model(&ModelSettings::clip), "the first"), "The animation to play.",
        "--clip", "NAME|INDEX"},
       {"model", "fps",

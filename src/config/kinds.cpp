@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "config/fabric.h"
 #include "config/frames.h"
 #include "config/suggest.h"
 
@@ -477,6 +478,20 @@ Kind frame_pattern(Member<std::string> value) {
               throw Problem{error.what(), ""};
             }
             value(settings) = resolved(folder, given).string();
+          },
+          shown_text(value), true};
+}
+
+Kind fabric(Member<std::string> value) {
+  return {"fabric", "a name (plisse size --list-fabrics), or \"B,E\"; empty: the panels' own",
+          [=](SceneSettings& settings, const toml::node& node, const fs::path&) {
+            const std::string given = text_of(node);
+            try {
+              if (!given.empty()) parse_fabric(given);
+            } catch (const Error& error) {
+              throw Problem{error.what(), ""};
+            }
+            value(settings) = given;
           },
           shown_text(value), true};
 }

@@ -89,6 +89,7 @@ Kind word_or_file(Member<std::string> value, std::vector<std::string> words);
 // An existing file whose name ends in one of these; empty: none.
 Kind file_path(Member<std::filesystem::path> value, std::vector<std::string> endings);
 Kind frame_pattern(Member<std::string> value);
+Kind fabric(Member<std::string> value);  // as parse_fabric takes it; empty: none
 
 // Words that stand for the values of an enumeration.
 template <typename Value>

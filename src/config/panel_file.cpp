@@ -5,9 +5,7 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,131 +14,33 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "config/complaints.h"
+#include "config/fabric_key.h"
 #include "config/garment_code.h"
 #include "config/kinds.h"
 #include "config/suggest.h"
+#include "config/table_reader.h"
+#include "sizing/obj_lines.h"
 
 namespace plisse {
 namespace {
 
 namespace fs = std::filesystem;
 using config::Complaints;
+using config::TableReader;
 using glm::dvec2;
 using sizing::Feature;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// One table of the file: reads its keys with their ranges, and at the end complains about those nobody asked
-// for.
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string name, double metres, Complaints& complaints)
-      : table_(table), name_(std::move(name)), metres_(metres), complaints_(complaints) {}
-  TableReader(const TableReader&) = delete;
-  TableReader& operator=(const TableReader&) = delete;
-
-  // Call last: what has not been asked for by then is unknown.
-  void finish() {
-    const std::vector<std::string> names(asked_.begin(), asked_.end());
-    for (const auto& [key, node] : table_) {
-      const std::string given(key.str());
-      if (asked_.contains(given)) continue;
-      complaints_.add(key.source().begin, fmt::format("key '{}': unknown in {}; allowed: {}{}", given, name_,
-                                                      config::either(names), did_you_mean(given, names)));
-    }
-  }
-
-  const toml::node* node(const std::string& key) {
-    asked_.insert(key);
-    return table_.get(key);
-  }
-  const toml::node* needed(const std::string& key, const char* allowed) {
-    const toml::node* found = node(key);
-    if (!found)
-      complaints_.add(table_.source().begin,
-                      fmt::format("key '{}': missing in {}; allowed: {}", key, name_, allowed));
-    return found;
-  }
-  void complain(const toml::node& at, const std::string& key, const std::string& text) {
-    complaints_.add(at.source().begin, fmt::format("key '{}': {}", key, text));
-  }
-
-  void text(const std::string& key, std::string& value) {
-    const toml::node* found = node(key);
-    if (!found) return;
-    if (const auto given = found->value<std::string>(); found->is_string()) {
-      value = *given;
-    } else {
-      complain(*found, key, "is no text; allowed: a text in quotes");
-    }
-  }
-
-  // A number, or a text that `parse` understands.
-  using Parse = std::function<std::optional<double>(std::string_view)>;
-  std::optional<double> number_of(const toml::node& at, const Parse& parse, double factor) const {
-    if (at.is_number()) return *at.value<double>() * factor;
-    if (at.is_string() && parse) return parse(*at.value<std::string>());
-    return std::nullopt;
-  }
-  bool number(const std::string& key, double& value, double low, double high, const char* allowed,
-              const Parse& parse = {}, double factor = 1) {
-    const toml::node* found = node(key);
-    if (!found) return false;
-    const auto given = number_of(*found, parse, factor);
-    if (!given || !(*given >= low) || !(*given <= high) || !std::isfinite(*given)) {
-      complain(
-          *found, key,
-          fmt::format("{}; allowed: {}",
-                      given ? fmt::format("{:g} is out of range", *given) : "is no such value", allowed));
-      return false;
-    }
-    value = *given;
-    return true;
-  }
-  // In the file's unit, or a text with one.
-  bool length(const std::string& key, double& value, double low, const char* allowed) {
-    return number(key, value, low, 1e9, allowed, parse_length, metres_);
-  }
-  std::optional<double> length_of(const toml::node& at) const { return number_of(at, parse_length, metres_); }
-
-  template <typename Value>
-  void word(const std::string& key, Value& value, const std::vector<std::pair<std::string, Value>>& words) {
-    std::string given;
-    text(key, given);
-    if (given.empty()) return;
-    std::vector<std::string> names;
-    for (const auto& [name, meaning] : words) {
-      if (name == given) {
-        value = meaning;
-        return;
-      }
-      names.push_back(name);
-    }
-    complain(*table_.get(key), key,
-             fmt::format("'{}' is unknown; allowed: {}{}", given, config::either(names),
-                         did_you_mean(given, names)));
-  }
-
-  const toml::table& table() const { return table_; }
-  const std::string& name() const { return name_; }
-  double metres() const { return metres_; }
-
- private:
-  const toml::table& table_;
-  std::string name_;
-  double metres_;
-  Complaints& complaints_;
-  std::set<std::string> asked_;
-};
-
 constexpr const char* curve_allowed =
     "SVG path data, an array of points [[x, y], …], { spline = [[x, y], …], closed = true } or { svg = FILE, "
-    "id = NAME }";
+    "id = NAME } or { obj = FILE, id = NAME }";
 
 class PanelReader {
  public:
-  PanelReader(PanelFile& file, const fs::path& folder, Complaints& complaints)
-      : file_(file), folder_(folder), complaints_(complaints) {}
+  // `in_place`: of all panels, whatever the file has; none: nullptr.
+  PanelReader(PanelFile& file, const fs::path& folder, const sizing::Fabric* in_place, Complaints& complaints)
+      : file_(file), folder_(folder), in_place_(in_place), complaints_(complaints) {}
 
   void read(const toml::table& root) {
     double metres = 1;
@@ -156,16 +56,18 @@ class PanelReader {
     }
     TableReader reader(root, "the file", metres, complaints_);
     reader.node("units");
-    sizing::Fabric fabric;
-    read_fabric(reader, fabric);
-    const bool common = root.contains("fabric");  // a wrong one is complained of once
+    std::optional<sizing::Fabric> common;
+    if (const toml::node* node = reader.node("fabric")) {
+      // A wrong one is complained of once, not by every panel that misses it.
+      common = config::read_fabric(*node, metres, complaints_).value_or(sizing::Fabric{});
+    }
+    if (in_place_) common = *in_place_;
     if (const toml::node* sizing = reader.node("sizing")) options(*sizing, metres);
     const toml::node* panels = reader.needed("panel", "tables [[panel]]");
     if (panels && panels->is_array_of_tables()) {
-      for (const toml::node& panel : *panels->as_array())
-        read_panel(*panel.as_table(), metres, common ? &fabric : nullptr);
+      for (const toml::node& panel : *panels->as_array()) read_panel(*panel.as_table(), metres, common);
     } else if (panels && panels->is_table()) {
-      read_panel(*panels->as_table(), metres, common ? &fabric : nullptr);
+      read_panel(*panels->as_table(), metres, common);
     } else if (panels) {
       reader.complain(*panels, "panel", "is no table; write [[panel]] and its keys below");
     }
@@ -181,82 +83,6 @@ class PanelReader {
   }
 
  private:
-  // Of the key 'fabric': a known name, or a table of numbers. False: none given, or a wrong one.
-  bool read_fabric(TableReader& reader, sizing::Fabric& fabric) {
-    const toml::node* node = reader.node("fabric");
-    if (!node) return false;
-    if (node->is_string()) {
-      const std::string name = *node->value<std::string>();
-      if (const sizing::Fabric* known = sizing::find_fabric(name)) {
-        fabric = *known;
-        return true;
-      }
-      std::vector<std::string> names;
-      for (const sizing::Fabric& known : sizing::fabrics()) names.push_back(known.name);
-      reader.complain(*node, "fabric",
-                      fmt::format("'{}' is unknown; allowed: {}, or a table with B and E{}", name,
-                                  config::either(names), did_you_mean(name, names)));
-      return false;
-    }
-    if (!node->is_table()) {
-      reader.complain(*node, "fabric", "is neither a name nor a table with B and E");
-      return false;
-    }
-    TableReader table(*node->as_table(), "fabric", reader.metres(), complaints_);
-    fabric.source = "panel file";
-    table.text("name", fabric.name);
-    table.number("poisson", fabric.poisson_ratio, 0, 0.5, "0 to 0.5");
-    double value = 0;
-    if (table.length("thickness", value, 1e-7, "above 0")) fabric.thickness = value;
-    if (table.number("density", value, 1e-9, 1e3, "above 0, in kg/m² or with a unit such as g/m²",
-                     sizing::parse_density))
-      fabric.density = value;
-    bool good = false;
-    if (table.table().contains("weft") || table.table().contains("warp")) {
-      good = direction(table, "weft", fabric, fabric.weft);
-      good &= direction(table, "warp", fabric, fabric.warp);
-    } else {
-      good = stiffness(table, fabric, fabric.weft);
-      fabric.warp = fabric.weft;
-    }
-    table.finish();
-    return good;
-  }
-
-  bool direction(TableReader& table, const std::string& key, const sizing::Fabric& fabric,
-                 sizing::Stiffness& result) {
-    const toml::node* node = table.needed(key, "a table with B and E");
-    if (!node) return false;
-    if (!node->is_table()) {
-      table.complain(*node, key, "is no table; allowed: { B = …, E = … }");
-      return false;
-    }
-    TableReader inner(*node->as_table(), key, table.metres(), complaints_);
-    const bool good = stiffness(inner, fabric, result);
-    inner.finish();
-    return good;
-  }
-
-  // B and E; or E and the fabric's thickness.
-  bool stiffness(TableReader& table, const sizing::Fabric& fabric, sizing::Stiffness& result) {
-    constexpr double least = std::numeric_limits<double>::min();
-    const bool has_modulus =
-        table.number("E", result.modulus, least, 1e15, "above 0, in N/m² or with a unit such as MPa",
-                     sizing::parse_modulus);
-    const bool has_bending =
-        table.number("B", result.bending, least, 1e9, "above 0, in N·m or with a unit such as gf·cm²/cm",
-                     sizing::parse_bending);
-    if (has_modulus && has_bending) return true;
-    if (has_modulus && !table.table().contains("B") && fabric.thickness) {
-      result.bending = sizing::bending_stiffness(result.modulus, *fabric.thickness, fabric.poisson_ratio);
-      return true;
-    }
-    if (!table.table().contains("E")) table.needed("E", "Young's modulus in N/m², or with a unit");
-    if (!table.table().contains("B") && !fabric.thickness)
-      table.needed("B", "bending stiffness in N·m, or with a unit; or give the fabric's 'thickness'");
-    return false;
-  }
-
   void options(const toml::node& node, double metres) {
     if (!node.is_table()) {
       complaints_.add(node.source().begin, "key 'sizing': is a table; write [sizing] and its keys below");
@@ -317,27 +143,44 @@ class PanelReader {
     return result;
   }
 
-  // One subpath of path data, wherever it is from.
+  // One curve, wherever it is from; of an outline's several, those that lie in it are its holes.
   template <typename Parse>
   std::optional<sizing::Polyline> path(TableReader& reader, const std::string& key, const toml::node& node,
-                                       bool closed, const Parse& parse) {
+                                       bool closed, const Parse& parse,
+                                       std::vector<sizing::Polyline>* holes = nullptr) {
     try {
       auto lines = parse();
-      if (lines.size() != 1) {
+      if (lines.size() != 1 && !holes) {
         reader.complain(node, key, fmt::format("has {} subpaths; one is wanted", lines.size()));
         return std::nullopt;
       }
-      for (dvec2& point : lines[0].points) point *= reader.metres();
-      lines[0].closed |= closed;
-      return without_repeats(std::move(lines[0]));
+      for (sizing::Polyline& line : lines) {
+        for (dvec2& point : line.points) point *= reader.metres();
+        line.closed |= closed;
+        line = without_repeats(std::move(line));
+      }
+      for (std::size_t i = 1; i < lines.size(); ++i) holes->push_back(lines[i]);
+      return std::move(lines[0]);
     } catch (const Error& error) {
       reader.complain(node, key, error.what());
       return std::nullopt;
     }
   }
 
+  // What a file beside the panel file has; its name stands before what is wrong with it.
+  template <typename Parse>
+  std::vector<sizing::Polyline> curves_of(const std::string& file, const Parse& parse) const {
+    const fs::path name = folder_ / file;
+    const auto bytes = read_whole_file(name);
+    try {
+      return parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    } catch (const Error& error) {
+      throw Error(error.code, fmt::format("{}: {}", name.string(), error.what()));
+    }
+  }
+
   std::optional<sizing::Polyline> curve(TableReader& reader, const std::string& key, const toml::node& node,
-                                        bool closed) {
+                                        bool closed, std::vector<sizing::Polyline>* holes = nullptr) {
     if (node.is_string()) {
       return path(reader, key, node, closed, [&] { return sizing::parse_path(*node.value<std::string>()); });
     }
@@ -348,20 +191,25 @@ class PanelReader {
     }
     if (node.is_table()) {
       TableReader table(*node.as_table(), key, reader.metres(), complaints_);
-      std::string svg, id;
+      std::string svg, obj, id;
       table.text("svg", svg);
+      table.text("obj", obj);
       table.text("id", id);
-      if (!svg.empty()) {
+      if (!svg.empty() || !obj.empty()) {
         table.finish();
-        return path(reader, key, node, closed, [&] {
-          const fs::path name = folder_ / svg;
-          const auto bytes = read_whole_file(name);
-          try {
-            return sizing::parse_svg({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, id);
-          } catch (const Error& error) {
-            throw Error(error.code, fmt::format("{}: {}", name.string(), error.what()));
-          }
-        });
+        if (!svg.empty() && !obj.empty()) {
+          reader.complain(node, key, "has 'svg' and 'obj'; take one of them out");
+          return std::nullopt;
+        }
+        const auto parse = [&] {
+          return svg.empty() ? curves_of(obj,
+                                         [&](auto text) {
+                                           auto lines = sizing::parse_obj_lines(text, id);
+                                           return holes ? sizing::outline_first(std::move(lines)) : lines;
+                                         })
+                             : curves_of(svg, [&](auto text) { return sizing::parse_svg(text, id); });
+        };
+        return path(reader, key, node, closed, parse, svg.empty() ? holes : nullptr);
       }
       const toml::node* through = table.needed("spline", "an array of points [[x, y], …]");
       if (const toml::node* given = table.node("closed")) closed |= given->value_or(false);
@@ -374,7 +222,7 @@ class PanelReader {
     return std::nullopt;
   }
 
-  void read_panel(const toml::table& table, double metres, const sizing::Fabric* common) {
+  void read_panel(const toml::table& table, double metres, const std::optional<sizing::Fabric>& common) {
     sizing::Panel panel;
     panel.name = fmt::format("panel{}", file_.garment.panels.size() + 1);
     TableReader reader(table, "[[panel]]", metres, complaints_);
@@ -386,11 +234,16 @@ class PanelReader {
       complaints_.add(table.source().begin, fmt::format("key 'name': there are two panels '{}'", panel.name));
     reader.number("grain", panel.grain, -360, 360, "degrees from x to the warp");
     if (common) panel.fabric = *common;
-    if (!read_fabric(reader, panel.fabric) && !common && !table.contains("fabric"))
+    if (const toml::node* node = reader.node("fabric")) {
+      const auto fabric = config::read_fabric(*node, metres, complaints_);
+      if (fabric && !in_place_) panel.fabric = *fabric;
+    } else if (!common) {
       complaints_.add(table.source().begin,
                       "key 'fabric': missing; give it to the panel or above all panels");
+    }
     if (const toml::node* node = reader.needed("outline", curve_allowed)) {
-      if (auto outline = curve(reader, "outline", *node, true)) panel.outline = std::move(*outline);
+      if (auto outline = curve(reader, "outline", *node, true, &panel.holes))
+        panel.outline = std::move(*outline);
     }
     if (const toml::node* holes = reader.node("holes")) {
       if (!holes->is_array()) {
@@ -546,6 +399,7 @@ class PanelReader {
 
   PanelFile& file_;
   fs::path folder_;  // paths start here
+  const sizing::Fabric* in_place_;
   Complaints& complaints_;
   std::set<std::string> names_;
   bool any_placed_ = false;
@@ -556,35 +410,58 @@ class PanelReader {
 PanelFile load_panels(const fs::path& file, const sizing::Fabric* fabric) {
   const auto bytes = read_whole_file(file);
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  if (file.extension() != ".json") {
-    if (fabric)
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format("{}: has its own fabrics; give --fabric to .json patterns alone", file.string()));
-    return parse_panels(text, file);
-  }
+  if (file.extension() != ".json") return parse_panels(text, file, fabric);
   if (!fabric)
     throw Error(
         ExitCode::bad_input,
-        fmt::format("{}: a GarmentCode pattern tells no fabric; add --fabric NAME or B,E", file.string()));
+        fmt::format("{}: a GarmentCode pattern tells no fabric; give one beside it, a name or B,E: --fabric, "
+                    "or 'fabric' in the scene",
+                    file.string()));
   PanelFile result;
   result.garment = parse_garment_code(text, file, *fabric);
   return result;
 }
 
-PanelFile parse_panels(std::string_view text, const fs::path& file) {
+PanelFile parse_panels(std::string_view text, const fs::path& file, const sizing::Fabric* fabric) {
   Complaints complaints(file);
-  toml::table root;
-  try {
-    root = toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    complaints.add(error.source().begin, fmt::format("not TOML: {}", error.description()));
-    complaints.throw_if_any();
-  }
+  const toml::table root = config::parse_toml(text, file);
   PanelFile result;
-  PanelReader(result, file.parent_path(), complaints).read(root);
+  PanelReader(result, file.parent_path(), fabric, complaints).read(root);
   complaints.throw_if_any();
   return result;
+}
+
+void keep_pieces(PanelFile& file, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  sizing::Garment& garment = file.garment;
+  std::vector<std::string> known;
+  for (const sizing::Panel& panel : garment.panels) known.push_back(panel.name);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(ExitCode::bad_input, fmt::format("there is no panel '{}'; allowed: {}{}", name,
+                                                   config::either(known), did_you_mean(name, known)));
+  sizing::Garment kept;
+  std::vector<std::size_t> place(known.size(), known.size());
+  for (std::size_t p = 0; p < known.size(); ++p) {
+    if (std::find(names.begin(), names.end(), known[p]) == names.end()) continue;
+    place[p] = kept.panels.size();
+    kept.panels.push_back(garment.panels[p]);
+    if (!garment.placements.empty()) kept.placements.push_back(garment.placements[p]);
+  }
+  for (sizing::Seam seam : garment.seams) {
+    if (place[seam.a.panel] == known.size() || place[seam.b.panel] == known.size()) continue;
+    seam.a.panel = place[seam.a.panel];
+    seam.b.panel = place[seam.b.panel];
+    kept.seams.push_back(std::move(seam));
+  }
+  garment = std::move(kept);
+}
+
+bool is_panel_file(const fs::path& file) {
+  const auto bytes = read_whole_file(file);
+  const toml::table root =
+      config::parse_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  return root.contains("panel") && !root.contains("model") && !root.contains("drape");
 }
 
 }  // namespace plisse

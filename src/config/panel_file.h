@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "sizing/garment.h"
 
@@ -16,8 +18,18 @@ struct PanelFile {
 
 // Throw Error(bad_input) with file:line:column for all that is wrong at once: syntax, unknown keys and words
 // (with the nearest known one), values out of range.
-// `.json`: a GarmentCode pattern (garment_code.h), all of it of `fabric`, which TOML files have no use for.
+// `fabric`: takes the place of every panel's own; `.json`, a GarmentCode pattern (garment_code.h), tells none
+// and needs it.
 PanelFile load_panels(const std::filesystem::path& file, const sizing::Fabric* fabric = nullptr);
-PanelFile parse_panels(std::string_view text, const std::filesystem::path& file);
+PanelFile parse_panels(std::string_view text, const std::filesystem::path& file,
+                       const sizing::Fabric* fabric = nullptr);
+
+// Leaves only the panels of these names, and the seams between them; none named: all stay. Throws
+// Error(bad_input) where a name is unknown.
+void keep_pieces(PanelFile& file, const std::vector<std::string>& names);
+
+// Whether a TOML file is one of panels and no scene. Throws Error(bad_input) where it cannot be read or is no
+// TOML.
+bool is_panel_file(const std::filesystem::path& file);
 
 }  // namespace plisse

@@ -95,6 +95,15 @@ void check_together(SceneSettings& scene, const Given& given, Complaints& compla
       }
     }
   };
+  const auto of_garment = [&](const std::string& key, bool empty) {
+    if (!empty && scene.model.garment.empty())
+      complaints.add(given.at("model." + key), fmt::format("key '{}': has no effect without 'garment'", key));
+  };
+  of_garment("pieces", scene.model.pieces.empty());
+  of_garment("fabric", scene.model.fabric.empty());
+  if (!scene.model.garment.empty() && !scene.model.path.empty()) {
+    complaints.add(given.at("model.garment"), "key 'garment': stands beside 'path'; take one of them out");
+  }
   std::string bias;  // the key that names the wrinkles of the rest pose; "" stands for none
   for (const auto& [key, path] :
        {std::pair("paint", &scene.bias.paint), {"file", &scene.bias.file}, {"field", &scene.bias.field}}) {
@@ -199,8 +208,9 @@ SceneSettings parse_scene(std::string_view text, const fs::path& file) {
       complaints.add(key.source().begin, unknown_table(name, node));
     }
   }
-  if (!given.contains("model.path")) {
-    complaints.add(model_table, fmt::format("key 'path': missing in [model]; allowed: {}",
+  const bool garment = !root["model"]["garment"].value_or(std::string()).empty();  // right or wrong
+  if (!given.contains("model.path") && !garment) {
+    complaints.add(model_table, fmt::format("key 'path': missing in [model]; allowed: {}; or 'garment'",
                                             config::find_key("model", "path")->kind.allowed));
   }
   for (const auto& [key, position] : given) scene.places[key] = config::place_in(file, position);
@@ -250,10 +260,10 @@ std::string scene_reference_markdown() {
     for (const Key& key : config::keys()) {
       if (key.table != table.name) continue;
       const bool needed = key.table == "model" && key.name == "path";
-      text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, key.kind.type,
-                          needed ? "must be given" : fmt::format("`{}`", key.kind.show(defaults)),
-                          cell(key.kind.allowed), cell(key.doc),
-                          key.option.empty() ? "" : fmt::format("`{}`", key.option));
+      text += fmt::format(
+          "| `{}` | {} | {} | {} | {} | {} |\n", key.name, key.kind.type,
+          needed ? "must be given, or `garment`" : fmt::format("`{}`", key.kind.show(defaults)),
+          cell(key.kind.allowed), cell(key.doc), key.option.empty() ? "" : fmt::format("`{}`", key.option));
     }
   }
   return text;

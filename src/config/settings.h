@@ -19,15 +19,18 @@ enum class Blend { linear, smooth };       // weights of a triangle's three wave
 enum class Gradient { paper, full };       // eq. 8 as printed, or with the gradient of the weights
 
 struct ModelSettings {
-  std::filesystem::path path;    // resolved against the scene file's folder
-  std::string clip;              // name or index; empty: first
-  double frames_per_second = 0;  // 0: 24, a sequence's own
-  std::string frames;            // selection "1-48x2,60"; empty: all
-  bool loop = false;             // replays one period first
-  double metres_per_unit = 0;    // 0: the file's own
-  std::string up;                // x | y | z; empty: the file's own
-  std::string rest = "auto";     // auto | bind | frame:N | FILE
-  std::filesystem::path cache;   // an MDD or PC2 file over the model's mesh; empty: none
+  std::filesystem::path path;       // resolved against the scene file's folder; empty: `garment`
+  std::filesystem::path garment;    // a panel file or GarmentCode pattern, which is meshed here
+  std::vector<std::string> pieces;  // panels of it, by name; none: all
+  std::string fabric;               // in place of the panels' own, as parse_fabric takes it; empty: theirs
+  std::string clip;                 // name or index; empty: first
+  double frames_per_second = 0;     // 0: 24, a sequence's own
+  std::string frames;               // selection "1-48x2,60"; empty: all
+  bool loop = false;                // replays one period first
+  double metres_per_unit = 0;       // 0: the file's own
+  std::string up;                   // x | y | z; empty: the file's own
+  std::string rest = "auto";        // auto | bind | frame:N | FILE
+  std::filesystem::path cache;      // an MDD or PC2 file over the model's mesh; empty: none
 };
 
 struct WrinkleSettings {

@@ -24,6 +24,18 @@ sizing::Polyline scaled(sizing::Polyline line, double factor) {
   return line;
 }
 
+// `sized`, every length over `scale`.
+FlatMesh flat(const sizing::PanelMesh& sized, double scale) {
+  FlatMesh mesh;
+  mesh.points.resize(3, static_cast<Eigen::Index>(sized.vertices.size()));
+  for (std::size_t v = 0; v < sized.vertices.size(); ++v) {
+    const glm::dvec2 point = sized.vertices[v] / scale;
+    mesh.points.col(static_cast<Eigen::Index>(v)) << point.x, point.y, 0;
+  }
+  for (const auto& triangle : sized.triangles) mesh.faces.push_back(triangle);
+  return mesh;
+}
+
 }  // namespace
 
 double edges_per_length(double area, double around, int vertices) {
@@ -49,19 +61,21 @@ FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing
     panel.outline = scaled(outline, scale);
     panel.holes.clear();
     for (const auto& hole : holes) panel.holes.push_back(scaled(hole, scale));
-    const auto sized = sizing::mesh_panel(panel, options);
-    mesh.points.resize(3, static_cast<Eigen::Index>(sized->mesh.vertices.size()));
-    for (std::size_t v = 0; v < sized->mesh.vertices.size(); ++v) {
-      const glm::dvec2 point = sized->mesh.vertices[v] / scale;
-      mesh.points.col(static_cast<Eigen::Index>(v)) << point.x, point.y, 0;
-    }
-    mesh.faces.clear();
-    for (const auto& triangle : sized->mesh.triangles) mesh.faces.push_back(triangle);
+    mesh = flat(sizing::mesh_panel(panel, options)->mesh, scale);
     const double share = static_cast<double>(vertices) / static_cast<double>(mesh.points.cols());
     if (std::abs(share - 1) < 0.02) break;
     per_edge *= std::sqrt(share);
   }
   return mesh;
+}
+
+FlatMesh fabric_mesh(const sizing::Polyline& outline, const sizing::Fabric& fabric, std::uint32_t seed) {
+  sizing::Panel panel;
+  panel.fabric = fabric;
+  panel.outline = outline;
+  sizing::SizingOptions options;
+  options.seed = seed;
+  return flat(sizing::mesh_panel(panel, options)->mesh, 1);
 }
 
 sizing::Polyline rectangle_outline(double width, double height) {

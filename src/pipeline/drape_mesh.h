@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shell/rest_shape.h"
+#include "sizing/fabric.h"
 #include "sizing/polyline.h"
 
 namespace plisse {
@@ -26,6 +27,9 @@ double edges_per_length(double area, double around, int vertices);
 // meshed.
 FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing::Polyline>& holes,
                        int vertices, std::uint32_t seed);
+
+// As fine as a fabric asks for, its warp along y. Throws Error(bad_input) as sizing::mesh_panel.
+FlatMesh fabric_mesh(const sizing::Polyline& outline, const sizing::Fabric& fabric, std::uint32_t seed);
 
 sizing::Polyline rectangle_outline(double width, double height);  // from (0, 0)
 sizing::Polyline circle_outline(double radius, int pieces);       // about (0, 0), counterclockwise

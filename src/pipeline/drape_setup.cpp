@@ -1,6 +1,7 @@
 #include "pipeline/drape_setup.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -14,11 +15,13 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "config/drape_file.h"
+#include "config/fabric.h"
 #include "config/panel_file.h"
 #include "io/import_obj.h"
 #include "pipeline/drape_garment.h"
 #include "pipeline/drape_mesh.h"
 #include "pipeline/drape_obstacles.h"
+#include "pipeline/fabric_material.h"
 
 namespace plisse {
 namespace {
@@ -77,11 +80,49 @@ std::vector<Held> find_held(const DrapeSettings& settings, const Positions& star
   return all;
 }
 
+// Says once what a fabric does not tell and was taken instead.
+shell::Material told_material(const std::string& who, const sizing::Fabric& fabric,
+                              std::optional<double> poisson, std::optional<double> density,
+                              std::optional<double> weight) {
+  // A weight of 0 g/m² stands for one that follows from a density.
+  FabricMaterial made = material_of(fabric, poisson, density ? std::optional(0.0) : weight);
+  if (density) made.material.density = *density;
+  if (!made.assumed.empty())
+    log::notice(fmt::format("{}: {} tells no more, so there is taken: {}", who,
+                            fabric.name.empty() ? "its fabric" : "fabric '" + fabric.name + "'",
+                            fmt::join(made.assumed, "; ")));
+  return made.material;
+}
+
+shell::Material material_of_scene(const DrapeSettings& settings, const sizing::Garment* garment) {
+  const std::string who = settings.file.string();
+  const auto told = [&](const char* key) { return settings.material.contains(key); };
+  const std::optional<double> poisson = told("poisson") ? std::optional(settings.poisson) : std::nullopt;
+  if (settings.fabric)
+    return told_material(who, *settings.fabric, poisson, settings.density, settings.weight);
+  if (garment && !told("young") && !told("thickness")) {
+    const sizing::Fabric& fabric = garment->panels.front().fabric;
+    for (const sizing::Panel& panel : garment->panels)
+      if (panel.fabric.weft != fabric.weft || panel.fabric.warp != fabric.warp)
+        log::warn(fmt::format("{}: all of it is draped as the fabric of panel '{}'; '{}' has another",
+                              settings.garment.string(), garment->panels.front().name, panel.name));
+    return told_material(who, fabric, poisson, settings.density, settings.weight);
+  }
+  return {settings.young, settings.poisson, settings.thickness,
+          settings.weight ? *settings.weight / settings.thickness : settings.density.value_or(0)};
+}
+
 DrapeScene scene_of(const DrapeSettings& settings) {
   DrapeScene scene;
   scene.name = settings.file.stem().string();
   if (!settings.garment.empty()) {
-    const PanelFile panels = load_panels(settings.garment);
+    PanelFile panels = load_panels(settings.garment, settings.fabric ? &*settings.fabric : nullptr);
+    try {
+      keep_pieces(panels, settings.pieces);
+    } catch (const Error& error) {
+      throw Error(error.code, fmt::format("{}: [drape] pieces: {}", settings.file.string(), error.what()));
+    }
+    scene.material = material_of_scene(settings, &panels.garment);
     const SewnGarment sewn = settings.vertices > 0
                                  ? sew_garment(panels.garment, settings.vertices, settings.seed)
                                  : sew_garment(panels.garment, panels.options);
@@ -90,11 +131,13 @@ DrapeScene scene_of(const DrapeSettings& settings) {
     scene.faces = sewn.faces;
     scene.start = placed(sewn, panels.garment, settings.wrap);
   } else {
+    scene.material = material_of_scene(settings, nullptr);
+    const auto outline = rectangle_outline(settings.panel[0], settings.panel[1]);
     const int vertices = settings.vertices > 0 ? settings.vertices : 1000;
-    const FlatMesh mesh = settings.mesh.empty()
-                              ? delaunay_mesh(rectangle_outline(settings.panel[0], settings.panel[1]), {},
-                                              vertices, settings.seed)
-                              : read_mesh(settings.mesh);
+    const FlatMesh mesh = !settings.mesh.empty() ? read_mesh(settings.mesh)
+                          : settings.fabric && settings.vertices == 0
+                              ? fabric_mesh(outline, *settings.fabric, settings.seed)
+                              : delaunay_mesh(outline, {}, vertices, settings.seed);
     scene.rest = scene.start = mesh.points;
     scene.rest_faces = scene.faces = mesh.faces;
     if (settings.mesh.empty() && !settings.upright) {
@@ -103,7 +146,6 @@ DrapeScene scene_of(const DrapeSettings& settings) {
     }
   }
   if (!settings.start.empty()) scene.start = read_start(settings.start, scene);
-  scene.material = {settings.young, settings.poisson, settings.thickness, settings.density};
   if (settings.stvk) {
     scene.stretching = shell::Stretching::stvk;
     scene.bending = shell::Bending::midedge;
@@ -262,8 +304,19 @@ Positions drawn_together(const FlatMesh& rest, const FlatMesh& base) {
 DrapeScene scene_of(Setup& setup) {
   DrapeScene scene;
   scene.name = setup.file().stem().string();
-  scene.material = {setup.number("youngs_modulus"), setup.number("poisson_ratio"), setup.number("thickness"),
-                    setup.number("density", 0)};
+  if (const std::string fabric = setup.text("fabric"); !fabric.empty()) {
+    const double ratio = setup.number("poisson_ratio", -1), density = setup.number("density", -1);
+    try {
+      scene.material = told_material(setup.file().string(), parse_fabric(fabric),
+                                     ratio < 0 ? std::nullopt : std::optional(ratio),
+                                     density < 0 ? std::nullopt : std::optional(density), {});
+    } catch (const Error& error) {
+      setup.complain(fmt::format("key 'fabric': {}", error.what()));
+    }
+  } else {
+    scene.material = {setup.number("youngs_modulus"), setup.number("poisson_ratio"),
+                      setup.number("thickness"), setup.number("density", 0)};
+  }
   scene.loads.gravity = setup.vector("gravity");
   scene.loads.pressure = setup.number("pressure", 0);
   const std::string stretching = setup.text("stretching_type");

@@ -20,6 +20,7 @@
 #include "io/wrinkle_field.h"
 #include "paint/bias_file.h"
 #include "paint/field.h"
+#include "pipeline/garment_model.h"
 #include "scene/wavelength_map.h"
 #include "scene/wrinkles.h"
 
@@ -94,7 +95,7 @@ namespace plisse::pipeline {
 
 LoadedScene::LoadedScene(const SceneSettings& given)
     : settings(given),
-      model(io::import_model(given.model.path, import_options(given))),
+      model(load_model(given)),
       animation(model, choice_of(given)),
       profile(passes::with_finer_waves(passes::make_profile(given.wrinkles.profile), given.wrinkles.fine,
                                        given.wrinkles.fine_share)) {

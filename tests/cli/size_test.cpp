@@ -64,6 +64,23 @@ TEST_F(Size, PanelsBecomeFiles) {
   EXPECT_THAT(small.err, HasSubstr("worse than promised"));
 }
 
+TEST_F(Size, AnotherFabricForTheSamePanels) {
+  test::write_text(folder_ / "p.toml",
+                   "fabric = \"khaki\"\n[[panel]]\noutline = [[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]]\n");
+  const auto resolution = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"size", path("p.toml"), "-o", path("out"), "--json", path("r.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).code, 0);
+    return json::parse(test::read_text(folder_ / "r.json"))["panels"][0]["resolution_mm"]["weft"]
+        .get<double>();
+  };
+  EXPECT_NEAR(resolution({}), 10.4698, 0.01);
+  EXPECT_NEAR(resolution({"--fabric", "dark-blue"}), 18.4183, 0.01);
+  const json model = json::parse(run({"info", path("p.toml"), "--fabric", "khaki", "--json", "-"}).out);
+  EXPECT_EQ(model["meshes"][0]["name"], "panel1");
+  EXPECT_EQ(model["fabric"]["meshes"][0]["coarser"], 0);  // it was meshed for it
+}
+
 TEST_F(Size, InfoTellsWhereAMeshIsTooCoarse) {
   test::write_text(folder_ / "cloth.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const Outcome outcome = run({"info", path("cloth.obj"), "--fabric", "khaki", "--json", path("r.json")});

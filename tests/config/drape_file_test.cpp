@@ -39,6 +39,30 @@ TEST(DrapeFile, ReadsWhatItSays) {
   EXPECT_EQ(s.holds[0].motion.turn, 90);
 }
 
+TEST(DrapeFile, FabricsAreThoseOfPanelFiles) {
+  const DrapeSettings named = parse_drape(
+      "[drape]\npanel = [1, 1]\n[material]\nfabric = \"khaki\"\ndensity = \"120 g/m²\"\n", "cloth.toml");
+  ASSERT_TRUE(named.fabric);
+  EXPECT_EQ(named.fabric->weft.modulus, 5e5);
+  EXPECT_DOUBLE_EQ(named.weight.value_or(0), 0.12);
+  EXPECT_FALSE(named.density);
+  EXPECT_EQ(named.vertices, 0);
+  const DrapeSettings numbers = parse_drape(
+      "[drape]\npanel = [1, 1]\n[material]\nfabric = { thickness = \"0.4 mm\", E = \"0.3 MPa\", density = "
+      "\"200 g/m²\" }\ndensity = 300\n",
+      "cloth.toml");
+  ASSERT_TRUE(numbers.fabric);
+  EXPECT_DOUBLE_EQ(numbers.fabric->thickness.value_or(0), 0.4e-3);
+  EXPECT_EQ(numbers.density, 300);
+  EXPECT_THAT(
+      test::error_of([] {
+        parse_drape("[drape]\npanel = [1, 1]\n[material]\nfabric = \"kaki\"\nyoung = 3\ndensity = \"3 m\"\n",
+                    "c.toml");
+      }),
+      AllOf(HasSubstr("c.toml:4:10: key 'fabric': 'kaki' is unknown"), HasSubstr("did you mean 'khaki'?"),
+            HasSubstr("key 'young': follows from 'fabric'"), HasSubstr("'3 m' is no weight")));
+}
+
 TEST(DrapeFile, AllMistakesAtOnce) {
   const std::string all = test::error_of([] {
     parse_drape(

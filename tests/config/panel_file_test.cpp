@@ -152,6 +152,70 @@ TEST(PanelFile, CurvesFromSvgFiles) {
     EXPECT_THROW(sizing::parse_svg(broken, ""), Error) << broken;
 }
 
+TEST(PanelFile, CurvesFromObjFiles) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "front.obj",
+                   "v 0 0 0\nv 40 0 0\nv 40 20 0\nv 0 20 0\nv 10 5 0\nv 12 5 0\nv 11 7 0\nv 0 10 0\n"
+                   "v 40 10 0\ng cut\nl 5 6 7 5\nl 1 2 3 4 1\ng crease\nl 8 9\n");
+  test::write_text(folder / "p.toml",
+                   "units = \"mm\"\nfabric = \"khaki\"\n[[panel]]\noutline = { obj = \"front.obj\", id = "
+                   "\"cut\" }\n[[panel.feature]]\nrule = \"fold\"\nangle = 90\nline = { obj = "
+                   "\"front.obj\", id = \"crease\" }\n");
+  const sizing::Panel panel = load_panels(folder / "p.toml").garment.panels.at(0);
+  EXPECT_DOUBLE_EQ(std::abs(signed_area(panel.outline)), 8e-4);
+  ASSERT_EQ(panel.holes.size(), 1U);  // what lies in the outer line
+  EXPECT_DOUBLE_EQ(std::abs(signed_area(panel.holes[0])), 2e-6);
+  EXPECT_EQ(panel.features.at(0).line.points, (std::vector<glm::dvec2>{{0, 0.01}, {0.04, 0.01}}));
+  const auto text = [&](const std::string& curve) {
+    return complaint("fabric = \"khaki\"\n[[panel]]\noutline = { " + curve + " }");
+  };
+  const std::string file = "obj = \"" + (folder / "front.obj").string() + "\"";
+  EXPECT_THAT(text(file + ", id = \"crease\""), HasSubstr("front.obj: a line is open"));
+  EXPECT_THAT(text(file + ", id = \"cutt\""), HasSubstr("has no group or object 'cutt'; it has crease, cut"));
+  EXPECT_THAT(text(file + ", svg = \"a.svg\""), HasSubstr("take one of them out"));
+  EXPECT_THAT(text("obj = \"none.obj\""), HasSubstr("none.obj"));
+}
+
+TEST(PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
+  const std::string text =
+      "fabric = \"khaki\"\n[[panel]]\noutline = [[0,0],[1,0],[0,1]]\n[[panel]]\nfabric = \"rose\"\n"
+      "outline = [[0,0],[1,0],[0,1]]\n";
+  EXPECT_EQ(parse(text).garment.panels[1].fabric.name, "rose");
+  const sizing::Fabric& green = *sizing::find_fabric("green");
+  for (const sizing::Panel& panel : parse_panels(text, "p.toml", &green).garment.panels)
+    EXPECT_EQ(panel.fabric.name, "green");
+  // Then the file need not have one.
+  EXPECT_EQ(parse_panels("[[panel]]\noutline = [[0,0],[1,0],[0,1]]", "p.toml", &green)
+                .garment.panels.at(0)
+                .fabric.name,
+            "green");
+  // Two numbers as on the command line.
+  EXPECT_EQ(parse("fabric = \"2e-6,3e5\"\n[[panel]]\noutline = [[0,0],[1,0],[0,1]]")
+                .garment.panels.at(0)
+                .fabric.weft,
+            sizing::find_fabric("wine-style")->weft);
+}
+
+TEST(PanelFile, PiecesStayWithTheSeamsBetweenThem) {
+  PanelFile skirt = load_panels(test::asset("skirt.toml"));
+  keep_pieces(skirt, {"band-back", "back"});
+  ASSERT_EQ(skirt.garment.panels.size(), 2U);
+  EXPECT_EQ(skirt.garment.panels[0].name, "back");  // in the file's order
+  EXPECT_EQ(skirt.garment.placements.size(), 2U);
+  ASSERT_EQ(skirt.garment.seams.size(), 1U);
+  EXPECT_EQ(skirt.garment.seams[0].name, "back waist");
+  EXPECT_EQ(skirt.garment.seams[0].a.panel, 0U);
+  EXPECT_EQ(skirt.garment.seams[0].b.panel, 1U);
+  try {
+    keep_pieces(skirt, {"bakc"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'back'?"));
+  }
+  EXPECT_TRUE(is_panel_file(test::asset("skirt.toml")));
+  EXPECT_FALSE(is_panel_file(test::asset("sleeve.toml")));
+}
+
 TEST(PanelFile, TheExamplesAreRead) {
   const PanelFile file = load_panels(test::asset("panels.toml"));
   EXPECT_GE(file.garment.panels.size(), 8U);

@@ -424,6 +424,22 @@ TEST_F(SceneFile, ShowAndSetAreInverse) {
   EXPECT_EQ(values(back), values(scene));
 }
 
+TEST_F(SceneFile, GarmentsStandInPlaceOfAPath) {
+  test::write_text(folder_ / "p.toml", "whatever is in it");
+  const SceneSettings scene =
+      parse("[model]\ngarment = \"p.toml\"\npieces = [\"a\", \"b\"]\nfabric = \"2e-6,3e5\"\n");
+  EXPECT_EQ(scene.model.garment, in_folder("p.toml"));
+  EXPECT_TRUE(scene.model.path.empty());
+  EXPECT_THAT(scene.model.pieces, ElementsAre("a", "b"));
+  EXPECT_EQ(scene.model.fabric, "2e-6,3e5");
+  EXPECT_THAT(complaints("[model]\ngarment = \"p.toml\"\npath = \"model.glb\"\n"),
+              ElementsAre(HasSubstr("2:1: key 'garment': stands beside 'path'")));
+  EXPECT_THAT(complaints("[model]\npath = \"model.glb\"\npieces = \"a\"\nfabric = \"khaki\"\n"),
+              ElementsAre(HasSubstr("3:1: key 'pieces': has no effect without 'garment'"),
+                          HasSubstr("4:1: key 'fabric': has no effect without 'garment'")));
+  EXPECT_THAT(complaints("[model]\ngarment = \"model.glb\"\n"), ElementsAre(HasSubstr("2:1: key 'garment'")));
+}
+
 TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
   // A table whose rows reach the same member twice has a key without effect of its own.
   const std::map<std::string, std::string> others = {{"clip", "\"x\""},
@@ -454,7 +470,9 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
   for (const config::Key& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;
     if (key.name == "eye" || key.name == "target") continue;  // only together: ReadsEveryKindOfValue
-    std::string value = "0.375";                              // the default of none
+    // Not beside a path: GarmentsStandInPlaceOfAPath.
+    if (key.name == "garment" || key.name == "pieces" || key.name == "fabric") continue;
+    std::string value = "0.375";  // the default of none
     if (key.kind.type == "whole number") value = "7";
     if (key.kind.type == "colour") value = "[0, 0.5, 0]";
     if (key.kind.type == "truth value") value = "true";

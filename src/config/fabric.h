@@ -1,0 +1,15 @@
+// Fabrics as people write them, in files and on the command line: a name of the one table
+// (sizing/fabric.h), or numbers.
+#pragma once
+
+#include <string>
+
+#include "sizing/fabric.h"
+
+namespace plisse {
+
+// "khaki", or bending stiffness and Young's modulus, units allowed: "2e-6,3e5", "0.02 gf·cm²/cm,0.3 MPa";
+// four of them: weft, then warp. Throws Error(bad_input) that says what the text is not.
+sizing::Fabric parse_fabric(const std::string& text);
+
+}  // namespace plisse
