@@ -24,7 +24,8 @@ struct Suite {
 };
 constexpr Suite suites[] = {{"relaxation", measure_relaxation}, {"precision", measure_precision},
                             {"shading", measure_shading},       {"mesh", measure_mesh},
-                            {"method", measure_method},         {"output", measure_output}};
+                            {"method", measure_method},         {"output", measure_output},
+                            {"sizing", measure_sizing}};
 
 std::vector<Suite> wanted_suites(const std::vector<std::string>& names) {
   const auto known = suite_names();

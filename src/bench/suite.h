@@ -33,6 +33,7 @@ SuiteReport measure_precision(const Setup& setup);   // shader float, plain C++ 
 SuiteReport measure_shading(const Setup& setup);     // shading against displaced geometry
 SuiteReport measure_output(const Setup& setup);      // samples, PNG level, threads that encode
 SuiteReport measure_mesh(const Setup& setup);        // vertices for base surface and field
+SuiteReport measure_sizing(const Setup& setup);      // the resolution paper's experiments
 SuiteReport measure_method(const Setup& setup);      // passes, fields, geometry, a buckling shell
 
 // Marks the rows that no other of the same scene and kind of error beats in both.
