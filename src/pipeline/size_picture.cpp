@@ -99,10 +99,10 @@ class Canvas {
   io::Image image_;
 };
 
-// Panel coordinates to pixels: fitted, y up.
+// Panel coordinates to pixels: fitted, y up; as wide as the title needs.
 class View {
  public:
-  explicit View(const sizing::Panel& panel) {
+  View(const sizing::Panel& panel, const std::string& title) {
     dvec2 low = panel.outline.points.front(), high = low;
     for (const dvec2& point : panel.outline.points) {
       low = glm::min(low, point);
@@ -110,9 +110,11 @@ class View {
     }
     const dvec2 extent = glm::max(high - low, dvec2(1e-12));
     scale_ = std::min(largest / extent.x, largest / extent.y);
-    width_ = static_cast<int>(extent.x * scale_) + 2 * margin + legend;
+    const int fitted = static_cast<int>(extent.x * scale_) + 2 * margin + legend;
+    width_ = std::max(fitted, Canvas::text_width(title) + 2 * margin);
     height_ = std::max(static_cast<int>(extent.y * scale_) + 2 * margin + caption, 560);
-    shift_ = dvec2(margin, margin + caption + (height_ - 2 * margin - caption - extent.y * scale_) / 2) -
+    shift_ = dvec2(margin + (width_ - fitted) / 2.0,
+                   margin + caption + (height_ - 2 * margin - caption - extent.y * scale_) / 2) -
              dvec2(low.x, -high.y) * scale_;
   }
   dvec2 pixel(const dvec2& p) const { return shift_ + dvec2(p.x, -p.y) * scale_; }
@@ -132,14 +134,16 @@ class View {
   dvec2 shift_{0};
 };
 
-void draw_legend(Canvas& canvas, const View& view, const SizeScale& scale, const std::string& title) {
+// Colours as strong as the panel's own.
+void draw_legend(Canvas& canvas, const View& view, const SizeScale& scale, const std::string& title,
+                 double opacity) {
   canvas.text(View::margin, 36, title, ink);
   const int x = view.width() - View::legend + 10, top = View::margin + View::caption + 40,
             bottom = view.height() - View::margin - 20, width = 34;
   for (int y = top; y < bottom; ++y) {
     const double share = 1 - static_cast<double>(y - top) / (bottom - top);
-    canvas.rectangle(x, y, x + width, y + 1,
-                     scale.colour(scale.low() + share * (scale.high() - scale.low())));
+    const Colour colour = scale.colour(scale.low() + share * (scale.high() - scale.low()));
+    for (int i = 0; i < width; ++i) canvas.blend(x + i, y, colour, opacity);
   }
   canvas.text(x, top - 50, "r, mm", ink);
   constexpr int ticks = 5;
@@ -237,20 +241,23 @@ std::array<std::uint8_t, 3> SizeScale::colour(double size) const {
 }
 
 io::Image draw_size_map(const sizing::Panel& panel, const sizing::SizedPanel& sized, const SizeScale& scale) {
-  const View view(panel);
+  const std::string title = title_of(panel);
+  const View view(panel, title);
   Canvas canvas(view.width(), view.height());
   fill(canvas, view, panel, sized, scale, 1);
   draw_lines(canvas, view, sized);
-  draw_legend(canvas, view, scale, title_of(panel));
+  draw_legend(canvas, view, scale, title, 1);
   draw_ruler(canvas, view);
   return canvas.take();
 }
 
 io::Image draw_size_mesh(const sizing::Panel& panel, const sizing::SizedPanel& sized,
                          const SizeScale& scale) {
-  const View view(panel);
+  const std::string title = fmt::format("{}: {} vertices", title_of(panel), sized.mesh.vertices.size());
+  const View view(panel, title);
   Canvas canvas(view.width(), view.height());
-  fill(canvas, view, panel, sized, scale, 0.45);
+  constexpr double pale = 0.45;  // under the lines
+  fill(canvas, view, panel, sized, scale, pale);
   // Fine lines where triangles are small, so that dense places do not go black.
   for (const auto& triangle : sized.mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -262,8 +269,7 @@ io::Image draw_size_mesh(const sizing::Panel& panel, const sizing::SizedPanel& s
     }
   }
   draw_lines(canvas, view, sized);
-  draw_legend(canvas, view, scale,
-              fmt::format("{}: {} vertices", title_of(panel), sized.mesh.vertices.size()));
+  draw_legend(canvas, view, scale, title, pale);
   draw_ruler(canvas, view);
   return canvas.take();
 }
