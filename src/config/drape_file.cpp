@@ -50,6 +50,26 @@ glm::dvec3 direction_of(const Node& node) {
   return glm::normalize(direction);
 }
 
+bool truth_of(const Node& node) {
+  if (!node.is_boolean()) throw Problem{"it is neither true nor false", ""};
+  return node.as_boolean()->get();
+}
+std::array<glm::dvec3, 2> box_of(const Node& node) {
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != 2) throw Problem{"it is no pair of corners", ""};
+  const glm::dvec3 a = point_of((*array)[0]), b = point_of((*array)[1]);
+  return {glm::min(a, b), glm::max(a, b)};
+}
+std::vector<std::uint32_t> vertices_of(const Node& node) {
+  const toml::array* array = node.as_array();
+  if (!array || array->empty()) throw Problem{"it is no array of numbers", ""};
+  std::vector<std::uint32_t> vertices;
+  for (const Node& item : *array)
+    vertices.push_back(static_cast<std::uint32_t>(
+        config::within(static_cast<double>(config::whole_of(item)), {0, 4294967294.0})));
+  return vertices;
+}
+
 std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double DrapeSettings::*member,
                                                                          config::Range range) {
   return [=](DrapeSettings& s, const Node& n, const fs::path&) {
@@ -186,21 +206,12 @@ std::vector<Key> all_keys() {
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.gap = config::within(config::length_of(n), lengths);
        }},
+      {"loads", "friction", "0 … 1000", "Coefficient of friction on obstacles (default 0).",
+       number(&DrapeSettings::friction, {0, 1e3})},
       {"hold", "box", "[[x, y, z], [x, y, z]]", "Holds the vertices that start in this box.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) {
-         const toml::array* array = n.as_array();
-         if (!array || array->size() != 2) throw Problem{"it is no pair of corners", ""};
-         const glm::dvec3 a = point_of((*array)[0]), b = point_of((*array)[1]);
-         s.holds.back().box = {glm::min(a, b), glm::max(a, b)};
-       }},
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().box = box_of(n); }},
       {"hold", "vertices", "an array of vertex numbers, from 0", "Holds these, in place of a box.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) {
-         const toml::array* array = n.as_array();
-         if (!array || array->empty()) throw Problem{"it is no array of numbers", ""};
-         for (const Node& item : *array)
-           s.holds.back().vertices.push_back(static_cast<std::uint32_t>(
-               config::within(static_cast<double>(config::whole_of(item)), {0, 4294967294.0})));
-       }},
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().vertices = vertices_of(n); }},
       {"hold", "axes", "some of x, y, z, such as \"xz\"",
        "The coordinates that are held (default all: a clamp).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
@@ -211,7 +222,30 @@ std::vector<Key> all_keys() {
            s.holds.back().axes[k] = word.find("xyz"[k]) != std::string::npos;
        }},
   };
+  all.push_back(
+      {"hold", "mirror", "true or false",
+       "The shell is one side of a symmetric one: the plane across the one axis that is held is a mirror "
+       "(default false).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().mirror = truth_of(n); }});
   add_motion(all, "hold", "they are", [](DrapeSettings& s) -> Motion& { return s.holds.back().motion; });
+  const std::vector<Key> force = {
+      {"force", "box", "[[x, y, z], [x, y, z]]", "Pulls at the vertices that start in this box.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.forces.back().box = box_of(n); }},
+      {"force", "vertices", "an array of vertex numbers, from 0", "Pulls at these, in place of a box.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.forces.back().vertices = vertices_of(n); }},
+      {"force", "total", "[x, y, z], N", "Shared out evenly among the vertices. Keeps its direction.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.forces.back().total = vector_of(n, config::number_of);
+       }},
+      {"force", "per_length", "[x, y, z], N/m",
+       "In place of `total`: a metre, at rest, of the boundary edges between the vertices.",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.forces.back().per_length = vector_of(n, config::number_of);
+       }},
+      {"force", "grows", "true or false", "From nothing to its full size with the load (default false).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) { s.forces.back().grows = truth_of(n); }},
+  };
+  all.insert(all.end(), force.begin(), force.end());
   const std::vector<Key> obstacle = {
       {"obstacle", "kind", "sphere, plane, capsule, cylinder or mesh", "What it is; must be there.",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
@@ -255,7 +289,7 @@ const std::vector<Key>& keys() {
 }
 
 bool repeated(const std::string& table) {
-  return table == "hold" || table == "obstacle";
+  return table == "hold" || table == "force" || table == "obstacle";
 }
 
 void read_table(const std::string& name, const toml::table& table, DrapeSettings& settings,
@@ -290,8 +324,16 @@ void read_table(const std::string& name, const toml::table& table, DrapeSettings
 void check_item(const std::string& name, const toml::table& table, const DrapeSettings& settings,
                 Complaints& complaints) {
   const toml::source_position at = table.source().begin;
-  if (name == "hold" && table.contains("box") == table.contains("vertices"))
-    complaints.add(at, "[[hold]] needs either 'box' or 'vertices'");
+  if (name != "obstacle" && table.contains("box") == table.contains("vertices"))
+    complaints.add(at, fmt::format("[[{}]] needs either 'box' or 'vertices'", name));
+  if (name == "force" && table.contains("total") == table.contains("per_length"))
+    complaints.add(at, "[[force]] needs either 'total' or 'per_length'");
+  if (name == "hold" && settings.holds.back().mirror) {
+    const auto& hold = settings.holds.back();
+    if (std::count(hold.axes.begin(), hold.axes.end(), true) != 1)
+      complaints.add(at, "key 'mirror': a mirror is the plane across one axis; name that one in 'axes'");
+    if (hold.motion.turn != 0) complaints.add(at, "key 'mirror': a mirror does not turn");
+  }
   if (name != "obstacle") return;
   if (!table.contains("kind"))
     complaints.add(at, "key 'kind': missing; allowed: sphere, plane, capsule, cylinder or mesh");
@@ -317,7 +359,7 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
   Complaints complaints(file);
   DrapeSettings settings;
   settings.file = file;
-  const std::vector<std::string> tables = {"drape", "material", "loads", "hold", "obstacle"};
+  const std::vector<std::string> tables = {"drape", "material", "loads", "hold", "force", "obstacle"};
   for (const auto& [toml_key, node] : root) {
     const std::string name(toml_key.str());
     if (std::find(tables.begin(), tables.end(), name) == tables.end()) {
@@ -330,6 +372,7 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
       for (const Node& item : *node.as_array()) {
         const std::string place = config::place_in(file, item.source().begin);
         if (name == "hold") settings.holds.emplace_back().place = place;
+        if (name == "force") settings.forces.emplace_back().place = place;
         if (name == "obstacle") settings.obstacles.emplace_back().place = place;
         read_table(name, *item.as_table(), settings, complaints);
         check_item(name, *item.as_table(), settings, complaints);

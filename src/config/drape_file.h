@@ -26,8 +26,16 @@ struct DrapeSettings {
     std::optional<std::array<glm::dvec3, 2>> box;  // of the start; none: `vertices`
     std::vector<std::uint32_t> vertices;           // of the base, from 0
     std::array<bool, 3> axes{true, true, true};
+    bool mirror = false;  // the plane across the one axis that is held is a mirror
     Motion motion;
     std::string place;  // "file:line:column", for messages
+  };
+  struct Force {
+    std::optional<std::array<glm::dvec3, 2>> box;
+    std::vector<std::uint32_t> vertices;
+    std::optional<glm::dvec3> total, per_length;  // N on all of them; N/m on the edges between them
+    bool grows = false;                           // from nothing to this at full load
+    std::string place;
   };
   struct Obstacle {
     enum class Kind { sphere, plane, capsule, cylinder, mesh };
@@ -58,10 +66,12 @@ struct DrapeSettings {
   glm::dvec3 gravity{0, -9.81, 0};
   double pressure = 0;
   double gap = 2e-3;
+  double friction = 0;
   double tolerance = 1e-8;
   int iterations = 1000;
   int frames = 1;
   std::vector<Hold> holds;
+  std::vector<Force> forces;
   std::vector<Obstacle> obstacles;
 };
 

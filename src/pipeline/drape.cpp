@@ -90,6 +90,16 @@ Positions led(const DrapeScene& scene, const shell::Conditions& conditions, doub
   return positions;
 }
 
+// Where vertices stick to obstacles that have moved.
+std::vector<Positions> carried_along(const std::vector<shell::Obstacle>& before,
+                                     const std::vector<shell::Obstacle>& after,
+                                     std::vector<Positions> anchors) {
+  for (std::size_t o = 0; o < anchors.size(); ++o)
+    for (Eigen::Index v = 0; v < anchors[o].cols(); ++v)
+      anchors[o].col(v) = shell::carried_along(before[o], after[o], anchors[o].col(v));
+  return anchors;
+}
+
 DrapeContact contact_of(const std::vector<shell::Obstacle>& obstacles, const shell::Topology& topology,
                         const Positions& positions) {
   DrapeContact contact;
@@ -227,7 +237,13 @@ DrapeReport drape(const DrapeRequest& request) {
       Positions start = loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
       if (scene.obstacles) {
         start = led(scene, conditions, load, frame.load, std::move(start));
+        const auto before = std::move(loads.obstacles);
         loads.obstacles = scene.obstacles(frame.load);
+        loads.anchors = carried_along(before, loads.obstacles, std::move(loads.anchors));
+      }
+      if (scene.growing_forces.size() > 0) {
+        loads.forces = frame.load * scene.growing_forces;
+        if (scene.loads.forces.size() > 0) loads.forces += scene.loads.forces;
       }
       load = frame.load;
       frame.equilibrium =
@@ -244,6 +260,7 @@ DrapeReport drape(const DrapeRequest& request) {
       break;
     }
     positions = frame.equilibrium.positions;
+    loads.anchors = std::move(frame.equilibrium.anchors);
     report.interrupted = interrupted() && !frame.equilibrium.converged;
     const bool wanted = std::find(picked.begin(), picked.end(), n) != picked.end();
     if (wanted) {

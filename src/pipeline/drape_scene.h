@@ -31,6 +31,7 @@ struct DrapeScene {
   double residual = 0;
   double perturb = 0;  // m: free coordinates of the start are moved at random by up to this much
   shell::Loads loads;
+  shell::Positions growing_forces;  // N, 3×V or empty: t times these are added to the loads'
   // What is held, at load t in 0 … 1. The same coordinates are held for every t.
   std::function<shell::Conditions(double t)> conditions;
   // Obstacles that move, at load t; the same number for every t. Empty: those of `loads` stay.

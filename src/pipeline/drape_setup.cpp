@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -57,24 +59,40 @@ struct Held {
   std::vector<std::uint32_t> vertices;
 };
 
+// Those in a box, or those that are named. `one`: a [[hold]] or a [[force]].
+std::vector<std::uint32_t> picked(const auto& one, const Positions& start) {
+  std::vector<std::uint32_t> vertices = one.vertices;
+  if (one.box) {
+    for (Eigen::Index v = 0; v < start.cols(); ++v) {
+      const glm::dvec3 p(start(0, v), start(1, v), start(2, v));
+      if (glm::all(glm::lessThanEqual((*one.box)[0], p)) && glm::all(glm::lessThanEqual(p, (*one.box)[1])))
+        vertices.push_back(static_cast<std::uint32_t>(v));
+    }
+    if (vertices.empty())
+      throw Error(ExitCode::bad_input, fmt::format("{}: no vertex starts in this box", one.place));
+  }
+  for (const std::uint32_t v : vertices)
+    if (v >= start.cols())
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: there is no vertex {}; allowed: 0 to {}", one.place, v, start.cols() - 1));
+  return vertices;
+}
+
 std::vector<Held> find_held(const DrapeSettings& settings, const Positions& start) {
   std::vector<Held> all;
   for (const auto& hold : settings.holds) {
-    Held held{hold, hold.vertices};
-    if (hold.box) {
-      for (Eigen::Index v = 0; v < start.cols(); ++v) {
-        const glm::dvec3 p(start(0, v), start(1, v), start(2, v));
-        if (glm::all(glm::lessThanEqual((*hold.box)[0], p)) &&
-            glm::all(glm::lessThanEqual(p, (*hold.box)[1])))
-          held.vertices.push_back(static_cast<std::uint32_t>(v));
-      }
-      if (held.vertices.empty())
-        throw Error(ExitCode::bad_input, fmt::format("{}: no vertex starts in this box", hold.place));
+    Held held{hold, picked(hold, start)};
+    if (hold.mirror) {
+      const auto axis =
+          static_cast<int>(std::find(hold.axes.begin(), hold.axes.end(), true) - hold.axes.begin());
+      const double at = start(axis, held.vertices.front());
+      for (const std::uint32_t v : held.vertices)
+        if (std::abs(start(axis, v) - at) >
+            1e-6 * (start.rowwise().maxCoeff() - start.rowwise().minCoeff()).norm())
+          throw Error(ExitCode::bad_input,
+                      fmt::format("{}: vertices {} and {} lie in no one plane across {}, so it is no mirror",
+                                  hold.place, held.vertices.front(), v, "xyz"[axis]));
     }
-    for (const std::uint32_t v : held.vertices)
-      if (v >= start.cols())
-        throw Error(ExitCode::bad_input, fmt::format("{}: there is no vertex {}; allowed: 0 to {}",
-                                                     hold.place, v, start.cols() - 1));
     all.push_back(std::move(held));
   }
   return all;
@@ -110,6 +128,34 @@ shell::Material material_of_scene(const DrapeSettings& settings, const sizing::G
   }
   return {settings.young, settings.poisson, settings.thickness,
           settings.weight ? *settings.weight / settings.thickness : settings.density.value_or(0)};
+}
+
+void add_forces(const DrapeSettings& settings, DrapeScene& scene) {
+  if (settings.forces.empty()) return;
+  const auto topology = shell::build_topology(scene.faces, static_cast<std::size_t>(scene.start.cols()));
+  const auto rest = shell::rest_faces(scene.rest, scene.rest_faces);
+  shell::Loads always, growing;
+  for (const auto& force : settings.forces) {
+    shell::Loads& loads = force.grows ? growing : always;
+    if (loads.forces.size() == 0) loads.forces = Positions::Zero(3, scene.start.cols());
+    const auto vertices = picked(force, scene.start);
+    if (force.total)
+      for (const std::uint32_t v : vertices)
+        loads.forces.col(v) += eigen(*force.total) / static_cast<double>(vertices.size());
+    if (!force.per_length) continue;
+    std::vector<bool> among(topology.vertex_count, false);
+    for (const std::uint32_t v : vertices) among[v] = true;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const shell::Edge& edge : topology.edges)
+      if (edge.boundary() && among[edge.vertex[0]] && among[edge.vertex[1]]) edges.push_back(edge.vertex);
+    if (edges.empty())
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: no boundary edge has both of its ends here; 'per_length' needs one", force.place));
+    shell::add_edge_forces(loads, topology, rest, edges, eigen(*force.per_length));
+  }
+  scene.loads.forces = always.forces;
+  scene.growing_forces = growing.forces;
 }
 
 DrapeScene scene_of(const DrapeSettings& settings) {
@@ -157,6 +203,8 @@ DrapeScene scene_of(const DrapeSettings& settings) {
   scene.newton.tolerance = settings.tolerance;
   scene.newton.max_iterations = settings.iterations;
   scene.frames = settings.frames;
+  scene.loads.friction = settings.friction;
+  add_forces(settings, scene);
   place_obstacles(settings, scene);
   const Positions start = scene.start;
   scene.conditions = [start, all = find_held(settings, start)](double t) {
@@ -164,9 +212,13 @@ DrapeScene scene_of(const DrapeSettings& settings) {
     for (const Held& held : all) {
       const Eigen::Isometry3d motion = motion_at(held.hold.motion, t);
       for (const std::uint32_t v : held.vertices) {
-        const Vector3d at = motion * start.col(v);
-        for (int axis = 0; axis < 3; ++axis)
-          if (held.hold.axes[static_cast<std::size_t>(axis)]) conditions.hold(v, axis, at[axis]);
+        Vector3d at = motion * start.col(v);
+        if (held.hold.mirror) at = motion * start.col(held.vertices.front());  // one plane to the last bit
+        for (int axis = 0; axis < 3; ++axis) {
+          if (!held.hold.axes[static_cast<std::size_t>(axis)]) continue;
+          conditions.hold(v, axis, at[axis]);
+          if (held.hold.mirror && v == held.vertices.front()) conditions.mirrors.push_back({axis, at[axis]});
+        }
       }
     }
     return conditions;

@@ -19,4 +19,9 @@ Positions carried(const Shell& shell, const Conditions& conditions, const Positi
 std::optional<Positions> followed(const std::vector<Obstacle>& before, const std::vector<Obstacle>& after,
                                   const Conditions& conditions, const Positions& positions);
 
+// Where the point of an obstacle's surface next to `point` has gone with it, seen from `point`: what sticks
+// to it goes along. Spheres, capsules, cylinders and planes are known by their places alone: they do not
+// spin.
+Eigen::Vector3d carried_along(const Obstacle& before, const Obstacle& after, const Eigen::Vector3d& point);
+
 }  // namespace plisse::shell

@@ -2,10 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+
+#include "shell/dense.h"
 
 namespace plisse::shell {
 namespace {
@@ -199,14 +200,10 @@ bool Cholesky::eliminate(std::uint32_t n, const double* values, std::vector<Matr
     }
     updates[child].resize(0, 0);
   }
-  auto square = panel.topRows(width);
-  Eigen::Ref<MatrixXd, 0, Eigen::OuterStride<>> top(square);
-  const Eigen::LLT<Eigen::Ref<MatrixXd, 0, Eigen::OuterStride<>>> factor(top);
-  if (factor.info() != Eigen::Success) return false;
+  if (!factorise_columns(panel.data(), height, height, width)) return false;
   if (height > width) {
-    auto rest = panel.bottomRows(height - width);
-    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(rest);
-    update.selfadjointView<Eigen::Lower>().rankUpdate(rest, -1);
+    subtract_products(panel.data() + width, height, update.data(), height - width, height - width,
+                      height - width, width);
     updates[n] = std::move(update);
   }
   return true;

@@ -24,8 +24,13 @@ class Search {
  public:
   Search(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start,
          const NewtonSettings& settings, const NewtonProgress& progress)
-      : settings_(settings),
+      : shell_(shell),
+        conditions_(conditions),
+        loads_(loads),
+        start_(start),
+        settings_(settings),
         progress_(progress),
+        frictional_(loads.friction > 0 && !loads.obstacles.empty()),
         potential_(shell, conditions, loads, start.rowwise().mean()) {
     result_.positions = start;
     for (Eigen::Index v = 0; v < start.cols(); ++v)
@@ -46,33 +51,73 @@ class Search {
     if (!std::isfinite(value.energy) || !gradient.allFinite())
       throw Error(ExitCode::bad_input,
                   "the start has no finite energy: positions are too large or too close to an obstacle");
+    if (frictional_) grip(value, gradient, true);
     note(0, value, gradient, 0, 0);
-    while (!finished(value, gradient)) {
+    int steps_gripped = 0;
+    while (true) {
+      // Friction lags behind what it depends on: every few steps it catches up, and at the end it must have.
+      if (frictional_ && steps_gripped >= 4) {
+        grip(value, gradient, false);
+        steps_gripped = 0;
+      }
+      if (finished(value, gradient)) {
+        if (!frictional_ || steps_gripped == 0 || !result_.converged) break;
+        result_.converged = false;
+        grip(value, gradient, false);
+        steps_gripped = 0;
+        continue;
+      }
+      if (runs_away()) break;
       const VectorXd direction = newton_direction(gradient);
       if (direction.size() == 0) {
         result_.reason = "the Hessian could not be factorised";
         break;
       }
       const auto began = Clock::now();
+      const double energy = value.energy, largest = gradient.cwiseAbs().maxCoeff();
+      const VectorXd before = gradient;
       const double step = line_search(value, gradient, direction);
       result_.line_search_s += since(began);
       if (step == 0) {
+        if (frictional_ && steps_gripped > 0) {
+          grip(value, gradient, false);
+          steps_gripped = 0;
+          continue;
+        }
         if (stalled(value, gradient)) break;
         continue;
       }
-      adapt(step);
+      ++steps_gripped;
+      adapt(step, (energy - value.energy) / promised(before, direction, step),
+            gradient.cwiseAbs().maxCoeff() / largest, (energy - value.energy) / value.terms);
       stalls_ = 0;
       ++result_.iterations;
-      note(result_.iterations, value, gradient, step, shift_);
+      note(result_.iterations, value, gradient, step, used_shift_);
       if (progress_ && !progress_(result_.trace.back(), result_.positions)) {
         result_.reason = "it was interrupted";
         break;
       }
     }
+    if (frictional_) result_.anchors = potential_.anchors(result_.positions);
     return std::move(result_);
   }
 
  private:
+  void grip(Potential::Value& value, VectorXd& gradient, bool first) {
+    potential_.grip(result_.positions, first);
+    value = potential_.value(result_.positions, &gradient);
+  }
+
+  // What is held by nothing may leave what it lies on.
+  bool runs_away() {
+    if (loads_.obstacles.empty() || result_.iterations % 8 != 0 || result_.iterations == 0) return false;
+    result_.reason = unsupported(shell_, conditions_, loads_, result_.positions);
+    if (result_.reason.empty() &&
+        longest_slide(shell_, conditions_, loads_, start_, result_.positions) > 10 * rest_extent_)
+      result_.reason = "a part slides along an obstacle without end: nothing holds it there";
+    return !result_.reason.empty();
+  }
+
   // Positions are rounded, and a shell's stiffness makes forces of it, which nothing can balance; they must
   // not keep one that nothing pulls at from being at rest. On a regular mesh rows of the bending's Hessian
   // sum to some 10 B A |∇λ|⁴.
@@ -100,7 +145,21 @@ class Search {
   }
 
   // A whole step earns trust in the quadratic model: the exact Hessian next time, and less of a shift.
-  void adapt(double step) {
+  // `fall`: of the energy, over what the model said; `rest`: of the largest force, over what it was.
+  void adapt(double step, double fall, double rest, double gain) {
+    if (regular_) {
+      // A shift is a trust region: as large as the model is wrong.
+      if (step < 0.5 || fall < 0.25) {
+        exact_shift_ = std::max(4 * exact_shift_, least_shift_);
+      } else if (fall > 0.75) {
+        exact_shift_ = exact_shift_ > 4 * least_shift_ ? 0.5 * exact_shift_ : 0;
+      }
+      return;
+    }
+    // Whole steps without concave parts that get nowhere: beside an equilibrium that is not stable, from
+    // which only those parts lead away.
+    regular_ = !was_exact_ && step > 0.5 && rest > 0.3 && gain < 1e-4;
+    if (regular_) exact_shift_ = 1e-7 * size_;
     exact_ = step > 0.5;
     if (exact_) {
       shift_ = shift_ > 4 * least_shift_ ? 0.1 * shift_ : 0;
@@ -136,37 +195,67 @@ class Search {
     return false;
   }
 
-  // −(H + shift)⁻¹ g, with the shift raised and the concave parts left out until that leads downhill.
-  VectorXd newton_direction(const VectorXd& gradient) {
-    for (int attempt = 0; attempt < 40; ++attempt) {
-      auto began = Clock::now();
-      system_ = potential_.hessian(result_.positions, exact_ ? Curvature::exact : Curvature::positive);
-      const VectorXd diagonal = system_.diagonal();
-      const double size = (diagonal.array() / potential_.areas().array().max(1e-300)).maxCoeff();
-      least_shift_ = 1e-12 * size;
-      if (shift_ > 0) system_.diagonal() += shift_ * potential_.areas();
-      result_.assembly_s += since(began);
+  void assemble(Curvature curvature) {
+    const auto began = Clock::now();
+    hessian_ = potential_.hessian(result_.positions, curvature);
+    size_ = (hessian_.diagonal().array() / potential_.areas().array().max(1e-300)).maxCoeff();
+    least_shift_ = 1e-12 * size_;
+    result_.assembly_s += since(began);
+  }
+
+  // −(H + shift)⁻¹ g where that is downhill, else nothing.
+  VectorXd solved(const VectorXd& gradient, double shift) {
+    auto began = Clock::now();
+    system_ = hessian_;
+    if (shift > 0) system_.diagonal() += shift * potential_.areas();
+    if (!analysed_) {
+      factor_.analyse(system_);
+      analysed_ = true;
+      result_.analysis_s = since(began);
       began = Clock::now();
-      if (!analysed_) {
-        factor_.analyse(system_);
-        analysed_ = true;
-        result_.analysis_s = since(began);
-        began = Clock::now();
-      }
-      const bool positive = factor_.factorise(system_);
-      result_.factor_s += since(began);
-      if (positive) {
-        result_.factor_nonzeros = factor_.nonzeros();
-        VectorXd direction = -factor_.solve(gradient);
-        if (direction.allFinite() && gradient.dot(direction) < 0) return direction;
-      }
-      if (exact_) {
-        exact_ = false;
-      } else {
-        shift_ = std::max(10 * shift_, least_shift_);
-      }
     }
-    return {};
+    VectorXd direction;
+    if (factor_.factorise(system_)) {
+      result_.factor_nonzeros = factor_.nonzeros();
+      direction = -factor_.solve(gradient);
+      if (!direction.allFinite() || gradient.dot(direction) >= 0) direction.resize(0);
+    }
+    result_.factor_s += since(began);
+    return direction;
+  }
+
+  // Newton's direction by the Hessian as it is; by what is left without its concave parts, where it is not
+  // positive definite; shifted where that leads nowhere. Empty: there is none.
+  VectorXd newton_direction(const VectorXd& gradient) {
+    VectorXd direction;
+    if (exact_ || regular_) {
+      assemble(Curvature::exact);
+      was_exact_ = true;
+      direction = solved(gradient, regular_ ? exact_shift_ : 0);
+      while (regular_ && direction.size() == 0 && exact_shift_ < 1e-2 * size_) {
+        exact_shift_ = std::max(4 * exact_shift_, 1e-8 * size_);
+        direction = solved(gradient, exact_shift_);
+      }
+      used_shift_ = regular_ ? exact_shift_ : 0;
+      if (direction.size() > 0) return direction;
+      exact_ = regular_ = false;
+    }
+    assemble(Curvature::positive);
+    was_exact_ = false;
+    for (int attempt = 0; attempt < 40; ++attempt) {
+      direction = solved(gradient, shift_);
+      used_shift_ = shift_;
+      if (direction.size() > 0) break;
+      shift_ = std::max(10 * shift_, least_shift_);
+    }
+    return direction;
+  }
+
+  // By how much the energy falls in a part of a step, says the model.
+  double promised(const VectorXd& gradient, const VectorXd& direction, double step) const {
+    const double slope = gradient.dot(direction);
+    const double shifted = used_shift_ * direction.cwiseAbs2().dot(potential_.areas());
+    return -step * slope + 0.5 * step * step * (slope + shifted);
   }
 
   // Halves the step until the energy falls enough; takes the new state. 0: no step does.
@@ -212,8 +301,8 @@ class Search {
     const double share = value.force_scale > 0 ? largest / value.force_scale : 0;
     // What rounding leaves of forces that cancel; a hundredth of that is all that energies can tell.
     const bool balanced = largest <= 100 * allowed(value);
-    if (exact_ && !balanced) {
-      exact_ = false;
+    if ((exact_ || regular_) && !balanced) {
+      exact_ = regular_ = false;
       return false;
     }
     if (!balanced && ++stalls_ < 4) {
@@ -226,15 +315,23 @@ class Search {
     return true;
   }
 
+  const Shell& shell_;
+  const Conditions& conditions_;
+  const Loads& loads_;
+  const Positions& start_;
   NewtonSettings settings_;
   const NewtonProgress& progress_;
+  const bool frictional_;
   Potential potential_;
   Equilibrium result_;
   Cholesky factor_;
-  Eigen::SparseMatrix<double> system_;
+  Eigen::SparseMatrix<double> hessian_, system_;
   Clock::time_point began_ = Clock::now();
-  double rounding_force_ = 0, rest_extent_ = 0, shift_ = 0, least_shift_ = 0;
-  bool exact_ = false, analysed_ = false;
+  double rounding_force_ = 0, rest_extent_ = 0;
+  double size_ = 0;  // N/m³: the largest of the Hessian's diagonal a rest area
+  // N/m³ a rest area: what is added to it without its concave parts, or as it is; the last that was.
+  double shift_ = 0, exact_shift_ = 0, least_shift_ = 0, used_shift_ = 0;
+  bool exact_ = false, regular_ = false, was_exact_ = false, analysed_ = false;
   int stalls_ = 0;
 };
 

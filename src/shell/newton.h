@@ -33,7 +33,8 @@ struct Equilibrium {
   double force_scale = 0;   // N: what it is small against
   int iterations = 0;
   bool converged = false;
-  std::string reason;  // why it ended, in words
+  std::string reason;              // why it ended, in words
+  std::vector<Positions> anchors;  // with friction: Loads::anchors for what comes next
   std::vector<NewtonStep> trace;
   double assembly_s = 0, factor_s = 0, line_search_s = 0, analysis_s = 0;
   std::size_t factor_nonzeros = 0;

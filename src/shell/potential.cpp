@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shell/bending_midedge.h"
 #include "shell/bending_quadratic.h"
 
 namespace plisse::shell {
@@ -16,20 +15,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-struct Flap {
-  Corners across = Corners::Zero();
-  std::array<bool, 3> has{};
-};
-
-Flap flap_of(const Topology& topology, std::size_t face, const Positions& x) {
-  Flap flap;
-  for (std::size_t i = 0; i < 3; ++i) {
-    flap.has[i] = topology.flaps[face][i] != none;
-    if (flap.has[i]) flap.across.col(static_cast<int>(i)) = x.col(topology.flaps[face][i]);
-  }
-  return flap;
-}
 
 // Corners, then the vertices across; where there is none, the corner itself: its rows are 0.
 std::array<std::uint32_t, 6> stencil(const Topology& topology, std::size_t face) {
@@ -81,6 +66,8 @@ Potential::Potential(const Shell& shell, const Conditions& conditions, const Loa
       vertex_areas_(vertex_areas(shell.topology, shell.rest)),
       contact_(contact_stiffness(shell, loads)),
       origin_(origin),
+      mirrors_(conditions.mirrors),
+      mirrored_(shell.topology.faces.size(), {-1, -1, -1}),
       open_sides_(open_sides(shell.topology, conditions)),
       some_vertex_(shell.topology.component_count, none) {
   if (shell.bending == Bending::quadratic) {
@@ -93,8 +80,57 @@ Potential::Potential(const Shell& shell, const Conditions& conditions, const Loa
     some_vertex_[part] = v;
     offset_ -= dead_force(v).dot(origin_);
   }
+  for (std::size_t f = 0; f < mirrored_.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (shell.topology.flaps[f][i] != none) continue;
+      const std::uint32_t a = shell.topology.faces[f][(i + 1) % 3], b = shell.topology.faces[f][(i + 2) % 3];
+      for (std::size_t m = 0; m < mirrors_.size(); ++m) {
+        const auto [axis, at] = mirrors_[m];
+        const auto in_it = [&](std::uint32_t v) {
+          return conditions.held(axis, v) && conditions.at(axis, v) == at;
+        };
+        if (in_it(a) && in_it(b)) mirrored_[f][i] = static_cast<std::int8_t>(m);
+      }
+    }
   number_unknowns(conditions);
   build_pattern();
+}
+
+Potential::Flap Potential::flap_of(std::size_t face, const Positions& x) const {
+  const Topology& topology = shell_.topology;
+  Flap flap;
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto across = flap.across.col(static_cast<int>(i));
+    flap.has[i] = topology.flaps[face][i] != none;
+    if (flap.has[i]) {
+      across = x.col(topology.flaps[face][i]);
+    } else if (mirrored_[face][i] >= 0) {
+      const auto [axis, at] = mirrors_[static_cast<std::size_t>(mirrored_[face][i])];
+      flap.has[i] = true;
+      across = x.col(topology.faces[face][i]);
+      across[axis] = 2 * at - across[axis];
+    }
+  }
+  return flap;
+}
+
+double Potential::midedge(std::size_t face, const Positions& x, Vector18* gradient, Matrix18* hessian,
+                          Curvature curvature) const {
+  const Flap flap = flap_of(face, x);
+  const double energy = bending_midedge(shell_.material, shell_.rest[face], rest_form(shell_, face),
+                                        corners_of(shell_.topology.faces[face], x), flap.across, flap.has,
+                                        gradient, hessian, curvature);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (mirrored_[face][i] < 0) continue;
+    const auto turned =
+        static_cast<Eigen::Index>(9 + 3 * i) + mirrors_[static_cast<std::size_t>(mirrored_[face][i])].axis;
+    if (gradient) (*gradient)[turned] *= -1;
+    if (hessian) {
+      hessian->row(turned) *= -1;
+      hessian->col(turned) *= -1;
+    }
+  }
+  return energy;
 }
 
 void Potential::number_unknowns(const Conditions& conditions) {
@@ -234,7 +270,48 @@ std::vector<Contact> Potential::contacts(const Positions& x, bool curvature) con
     const auto vertex = static_cast<std::uint32_t>(v);
     if (shell_.topology.component[v] != none) all[v] = contact_at(vertex, x.col(vertex), curvature);
   });
+  for (const Grip& grip : grips_) {
+    const Contact rub = friction(grip, x.col(grip.vertex), loads_.friction, loads_.slip_length());
+    all[grip.vertex].value += rub.value;
+    all[grip.vertex].first += rub.first;
+    all[grip.vertex].second += rub.second;
+  }
   return all;
+}
+
+void Potential::grip(const Positions& x, bool first) {
+  std::vector<Grip> grips;
+  auto old = grips_.begin();
+  for (std::uint32_t v = 0; v < shell_.topology.vertex_count; ++v) {
+    if (shell_.topology.component[v] == none) continue;
+    const double stiffness = contact_ * vertex_areas_[v];
+    for (std::uint32_t o = 0; o < loads_.obstacles.size(); ++o) {
+      while (old != grips_.end() && std::pair(old->vertex, old->obstacle) < std::pair(v, o)) ++old;
+      const Vector3d push = -stiffness * contact(loads_.obstacles[o], x.col(v), loads_.gap, false).first;
+      const double force = push.norm();
+      if (!(force > 0)) continue;
+      Grip grip{v, o, x.col(v), push / force, force};
+      if (old != grips_.end() && old->vertex == v && old->obstacle == o) {
+        grip.anchor = old->anchor;
+      } else if (first && !loads_.anchors.empty()) {
+        grip.anchor = loads_.anchors[o].col(v);
+      }
+      grips.push_back(grip);
+    }
+  }
+  grips_ = std::move(grips);
+}
+
+std::vector<Positions> Potential::anchors(const Positions& x) const {
+  std::vector<Positions> anchors(loads_.obstacles.size(), x);
+  const double slip = loads_.slip_length();
+  for (const Grip& grip : grips_) {
+    const Vector3d from = x.col(grip.vertex) - grip.anchor;
+    const Vector3d way = from - grip.normal.dot(from) * grip.normal;
+    const double length = way.norm();
+    anchors[grip.obstacle].col(grip.vertex) -= length > slip ? Vector3d(slip / length * way) : way;
+  }
+  return anchors;
 }
 
 Vector3d Potential::dead_force(std::uint32_t vertex) const {
@@ -280,11 +357,8 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
   tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
     const Corners corners = corners_of(topology.faces[f], x);
     stretch[f] = stretching(law_, shell_.rest[f], corners, gradient ? &stretch_force[f] : nullptr);
-    if (!bend.empty()) {
-      const Flap flap = flap_of(topology, f, x);
-      bend[f] = bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners, flap.across,
-                                flap.has, gradient ? &bend_force[f] : nullptr);
-    }
+    if (!bend.empty())
+      bend[f] = midedge(f, x, gradient ? &bend_force[f] : nullptr, nullptr, Curvature::exact);
   });
 
   Value value;
@@ -373,10 +447,7 @@ const Eigen::SparseMatrix<double>& Potential::hessian(const Positions& x, Curvat
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
       const std::size_t f = first + k;
       stretch[k] = stretching_hessian(f, x, curvature);
-      if (bend.empty()) return;
-      const Flap flap = flap_of(topology, f, x);
-      bending_midedge(shell_.material, shell_.rest[f], rest_form(shell_, f), corners_of(topology.faces[f], x),
-                      flap.across, flap.has, nullptr, &bend[k], curvature);
+      if (!bend.empty()) midedge(f, x, nullptr, &bend[k], curvature);
     });
     for (std::size_t k = 0; k < count; ++k) {
       scatter<3>(first + k, stretch[k], face_blocks_);

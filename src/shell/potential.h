@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "shell/bending_midedge.h"
+#include "shell/friction.h"
 #include "shell/statics.h"
 
 namespace plisse::shell {
@@ -35,6 +37,13 @@ class Potential {
   // curvature: compression, normals' own curvature, pressure, obstacles' concave directions.
   const Eigen::SparseMatrix<double>& hessian(const Positions& x, Curvature curvature);
 
+  // Looks at what obstacles push at, which friction goes by from here on: the energy changes by it. A vertex
+  // that is newly in contact grips where it is, those of `first` where Loads::anchors says.
+  void grip(const Positions& x, bool first);
+  // Where vertices stick from here on, to each obstacle (Loads::anchors): what has slipped drags its anchor
+  // along.
+  std::vector<Positions> anchors(const Positions& x) const;
+
   // Adds `step` times the unknowns' direction to the positions.
   void advance(Positions& x, const Eigen::VectorXd& direction, double step) const;
   // Rest area of the vertex of each unknown, m².
@@ -47,6 +56,10 @@ class Potential {
     std::uint32_t row = 0, column = 0;
     std::array<std::int32_t, 9>
         slot{};  // into the values by 3·row + column, −1: not in the lower half or held
+  };
+  struct Flap {
+    Corners across = Corners::Zero();
+    std::array<bool, 3> has{};
   };
   void number_unknowns(const Conditions& conditions);
   void build_pattern();
@@ -65,9 +78,16 @@ class Potential {
   Eigen::Vector3d dead_force(std::uint32_t vertex) const;
   // Where the cones under a part's faces meet: anywhere if it is closed, else the place check() asks for.
   Eigen::Vector3d apex(std::uint32_t part, const Positions& x) const;
+  Flap flap_of(std::size_t face, const Positions& x) const;
+  // Bending of one face by mid-edge normals, J. Rows of a mirrored vertex, which has the corner's own place
+  // in the stencil, are by the corner.
+  double midedge(std::size_t face, const Positions& x, Vector18* gradient, Matrix18* hessian,
+                 Curvature curvature) const;
   // All obstacles on one vertex, J and its derivatives; on all vertices, or nothing where there are none.
   Contact contact_at(std::uint32_t vertex, const Eigen::Vector3d& x, bool curvature) const;
   std::vector<Contact> contacts(const Positions& x, bool curvature) const;
+
+  std::vector<Grip> grips_;
 
   const Shell& shell_;
   const Loads& loads_;
@@ -75,7 +95,9 @@ class Potential {
   Eigen::VectorXd vertex_areas_, unknown_areas_;
   double contact_ = 0;  // N/m³
   Eigen::Vector3d origin_;
-  double offset_ = 0;                                     // J
+  double offset_ = 0;  // J
+  std::vector<Conditions::Mirror> mirrors_;
+  std::vector<std::array<std::int8_t, 3>> mirrored_;      // of each face's edges: which mirror, −1: none
   std::vector<OpenSide> open_sides_;                      // of each part
   std::vector<std::uint32_t> some_vertex_;                // of each part
   std::vector<std::uint32_t> place_;                      // of a vertex in the order of elimination

@@ -81,29 +81,29 @@ std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& con
 namespace {
 
 struct Pull {
-  Vector3d force = Vector3d::Zero();  // N, along axes in which nothing is held
-  std::string what;                   // pulls; empty: nothing does
+  Vector3d force = Vector3d::Zero();             // N, along axes in which nothing is held
+  Eigen::Array3d free = Eigen::Array3d::Ones();  // 1: nothing is held along this axis
+  std::string what;                              // pulls; empty: nothing does
 };
 
 Pull pull_on(const Shell& shell, const Conditions& conditions, const Loads& loads, std::uint32_t part) {
   const Eigen::VectorXd areas = vertex_areas(shell.topology, shell.rest);
+  Pull pull;
   Vector3d weight = Vector3d::Zero(), sum = Vector3d::Zero();
   double size = 0;
-  Eigen::Array3d free = Eigen::Array3d::Ones();
   for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v) {
     if (shell.topology.component[v] != part) continue;
-    free *= 1 - conditions.held.col(v).array().cast<double>();
+    pull.free *= 1 - conditions.held.col(v).array().cast<double>();
     weight += shell.material.density * shell.material.thickness * areas[v] * loads.gravity;
     if (loads.forces.size() == 0) continue;
     sum += loads.forces.col(v);
     size += loads.forces.col(v).norm();
   }
-  Pull pull;
-  pull.force = free * (weight + sum).array();
+  pull.force = pull.free * (weight + sum).array();
   // 1e-9: what cancels does so up to rounding of as many summands.
   if (pull.force.norm() <= 1e-9 * (weight.norm() + size)) return pull;
-  pull.what = (free * weight.array()).matrix().norm() > 0 ? "gravity pulls at it"
-                                                          : "forces pull at it that do not cancel";
+  pull.what = (pull.free * weight.array()).matrix().norm() > 0 ? "gravity pulls at it"
+                                                               : "forces pull at it that do not cancel";
   return pull;
 }
 
@@ -124,7 +124,72 @@ bool lands(const Obstacle& obstacle, Vector3d point, const Vector3d& way, double
   return true;  // along its side for very long
 }
 
+std::string named(std::uint32_t part, std::uint32_t vertex) {
+  return fmt::format("part {} (the one with vertex {})", part, vertex);
+}
+
 }  // namespace
+
+std::string unsupported(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                        const Positions& positions) {
+  std::string problems;
+  const auto& component = shell.topology.component;
+  for (std::uint32_t part = 0; part < shell.topology.component_count; ++part) {
+    const Pull pull = pull_on(shell, conditions, loads, part);
+    if (pull.what.empty()) continue;
+    bool caught = false;
+    for (std::uint32_t v = 0; v < shell.topology.vertex_count && !caught; ++v)
+      for (std::size_t o = 0; o < loads.obstacles.size() && !caught; ++o)
+        caught = component[v] == part &&
+                 lands(loads.obstacles[o], positions.col(v), pull.force.normalized(), loads.gap);
+    if (caught) continue;
+    const auto vertex =
+        static_cast<std::uint32_t>(std::find(component.begin(), component.end(), part) - component.begin());
+    problems += fmt::format("{}{} is held by nothing and {}: hold some of its vertices{}",
+                            problems.empty() ? "" : "; ", named(part, vertex), pull.what,
+                            loads.obstacles.empty() ? "" : ", or put an obstacle in its way");
+  }
+  return problems;
+}
+
+double longest_slide(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                     const Positions& from, const Positions& to) {
+  double longest = 0;
+  for (std::uint32_t part = 0; part < shell.topology.component_count; ++part) {
+    const Pull pull = pull_on(shell, conditions, loads, part);
+    if (pull.what.empty()) continue;
+    Vector3d sum = Vector3d::Zero();
+    double count = 0;
+    for (std::uint32_t v = 0; v < shell.topology.vertex_count; ++v) {
+      if (shell.topology.component[v] != part) continue;
+      sum += to.col(v) - from.col(v);
+      ++count;
+    }
+    longest = std::max(longest, (pull.free * sum.array()).matrix().norm() / count);
+  }
+  return longest;
+}
+
+void add_edge_forces(Loads& loads, const Topology& topology, const std::vector<RestFace>& rest,
+                     const std::vector<std::array<std::uint32_t, 2>>& edges, const Vector3d& per_length) {
+  if (loads.forces.size() == 0) loads.forces = Positions::Zero(3, topology.vertex_count);
+  for (auto [a, b] : edges) {
+    if (a > b) std::swap(a, b);
+    const auto edge = std::lower_bound(
+        topology.edges.begin(), topology.edges.end(), std::array{a, b},
+        [](const Edge& one, const std::array<std::uint32_t, 2>& pair) { return one.vertex < pair; });
+    if (edge == topology.edges.end() || edge->vertex != std::array{a, b})
+      throw Error(ExitCode::bad_input, fmt::format("a load is on the edge {}-{}, which no face has", a, b));
+    const RestFace& triangle = rest[edge->face[0]];
+    const auto& sides = topology.face_edges[edge->face[0]];
+    const auto opposite =
+        std::find(sides.begin(), sides.end(), static_cast<std::uint32_t>(edge - topology.edges.begin())) -
+        sides.begin();
+    // A hat function falls by 1 over the triangle's height, which is twice its area over the edge.
+    const double length = 2 * triangle.area * triangle.gradients.col(opposite).norm();
+    for (const std::uint32_t v : {a, b}) loads.forces.col(v) += 0.5 * length * per_length;
+  }
+}
 
 void check(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start) {
   std::string problems;
@@ -136,6 +201,8 @@ void check(const Shell& shell, const Conditions& conditions, const Loads& loads,
       (shell.rest_forms.size() != shell.rest.size() || shell.bending == Bending::quadratic))
     add(fmt::format("{} second forms of rest triangles; one a face is wanted, and mid-edge bending",
                     shell.rest_forms.size()));
+  if (!shell.rest_forms.empty() && !conditions.mirrors.empty())
+    add("mirrors are for shells that are flat at rest: second forms at rest know nothing of them");
   if (start.cols() != count) add(fmt::format("{} positions for {} vertices", start.cols(), count));
   if (conditions.at.cols() != count)
     add(fmt::format("conditions for {} of {} vertices", conditions.at.cols(), count));
@@ -143,6 +210,13 @@ void check(const Shell& shell, const Conditions& conditions, const Loads& loads,
     add(fmt::format("{} nodal forces for {} vertices", loads.forces.cols(), count));
   if (!(shell.residual >= 0 && shell.residual <= 1))
     add(fmt::format("the residual stiffness is {}; allowed: 0 to 1", shell.residual));
+  if (!(loads.friction >= 0 && loads.friction <= 1e3))
+    add(fmt::format("the coefficient of friction is {}; allowed: 0 to 1000", loads.friction));
+  if (!(loads.slip >= 0)) add(fmt::format("the slip length is {}; allowed: 0 m or more", loads.slip));
+  if (!loads.anchors.empty() && loads.anchors.size() != loads.obstacles.size())
+    add(fmt::format("anchors for {} of {} obstacles", loads.anchors.size(), loads.obstacles.size()));
+  for (const Positions& anchors : loads.anchors)
+    if (anchors.cols() != count) add(fmt::format("{} anchors for {} vertices", anchors.cols(), count));
   if (!(loads.gap > 0)) add(fmt::format("the gap is {}; allowed: more than 0 m", loads.gap));
   if (!start.allFinite() || !conditions.at.allFinite() || !loads.gravity.allFinite() ||
       !loads.forces.allFinite() || !std::isfinite(loads.pressure))
@@ -162,23 +236,14 @@ void check(const Shell& shell, const Conditions& conditions, const Loads& loads,
   }
   const auto sides = open_sides(shell.topology, conditions);
   for (std::uint32_t part = 0; part < shell.topology.component_count; ++part) {
-    const std::string named = fmt::format("part {} (the one with vertex {})", part, some_vertex[part]);
     if (loads.pressure != 0 && sides[part].open && sides[part].loose != none)
       add(fmt::format(
           "{}: pressure pushes it, which is open, and its boundary is loose at vertex {}: hold it "
           "all round, or in one plane across an axis",
-          named, sides[part].loose));
-    const Pull pull = pull_on(shell, conditions, loads, part);
-    if (pull.what.empty()) continue;
-    bool caught = false;
-    for (std::uint32_t v = 0; v < shell.topology.vertex_count && !caught; ++v)
-      for (std::size_t o = 0; o < loads.obstacles.size() && !caught; ++o)
-        caught = shell.topology.component[v] == part &&
-                 lands(loads.obstacles[o], start.col(v), pull.force.normalized(), loads.gap);
-    if (!caught)
-      add(fmt::format("{} is held by nothing and {}: hold some of its vertices{}", named, pull.what,
-                      loads.obstacles.empty() ? "" : ", or put an obstacle in its way"));
+          named(part, some_vertex[part]), sides[part].loose));
   }
+  const std::string falling = unsupported(shell, conditions, loads, start);
+  if (!falling.empty()) add(falling);
   if (!problems.empty()) throw Error(ExitCode::bad_input, problems);
 }
 

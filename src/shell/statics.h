@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string>
 #include <vector>
 
 #include "shell/material.h"
@@ -27,8 +29,16 @@ struct Shell {
 // Where a vertex is held, by coordinate: clamps hold all three, rollers and symmetry planes some. `at` is
 // read where `held` is set.
 struct Conditions {
+  // A plane across an axis, of which the shell is one side: boundary edges whose ends are both held in it go
+  // on as their own mirror image, so mid-edge normals lie in it. (The quadratic bending takes them for free
+  // edges, and stretching needs no more than the hold.)
+  struct Mirror {
+    int axis = 0;
+    double at = 0;  // m
+  };
   Eigen::Matrix<bool, 3, Eigen::Dynamic> held;  // 3×V
   Positions at;                                 // m, 3×V
+  std::vector<Mirror> mirrors;
 
   explicit Conditions(std::size_t vertices = 0);
   void hold(std::uint32_t vertex, const Eigen::Vector3d& position);
@@ -42,7 +52,19 @@ struct Loads {
   std::vector<Obstacle> obstacles;
   double gap = 1e-3;             // m: obstacles begin to push this far off
   double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
+  double friction = 0;           // μ, Coulomb's, on all obstacles
+  double slip = 0;               // m: a grip has slipped so far where friction is all it can be; 0: gap/10
+  // Where vertices stick to each obstacle that they touch at the start: 3×V an obstacle; empty: where they
+  // start. For obstacles that have moved since (carried_along).
+  std::vector<Positions> anchors;
+
+  double slip_length() const { return slip > 0 ? slip : 0.1 * gap; }
 };
+
+// Adds a dead force a rest length, N/m, on edges (vertex pairs, of the base): half of it to each end.
+void add_edge_forces(Loads& loads, const Topology& topology, const std::vector<RestFace>& rest,
+                     const std::vector<std::array<std::uint32_t, 2>>& edges,
+                     const Eigen::Vector3d& per_length);
 
 // The volume that pressure works on, of a part that is open, is that of cones from its faces to an apex:
 // right where nothing moves that the open side's own cones would push at. So the boundary's edges must be
@@ -54,6 +76,15 @@ struct OpenSide {
   std::uint32_t loose = none;  // a vertex of the boundary that is not held so; none: there is none
 };
 std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& conditions);  // of each part
+
+// Parts that are pulled at along an axis in which nothing holds them and that are not on their way to an
+// obstacle: which, and what pulls; empty: there is none. (Parts that are free to turn only have an
+// equilibrium: dead loads have a least energy among all turns.)
+std::string unsupported(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                        const Positions& positions);
+// Of parts that are so pulled at: the farthest that the mean of one has gone in those axes, m.
+double longest_slide(const Shell& shell, const Conditions& conditions, const Loads& loads,
+                     const Positions& from, const Positions& to);
 
 // Throws Error(bad_input), all problems at once: counts that do not agree, values that are not finite, a part
 // of the shell that is pulled at along an axis, held by nothing in it and not above an obstacle that it would

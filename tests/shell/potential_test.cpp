@@ -129,6 +129,85 @@ TEST(ShellPotential, VerticesOfThreeTriangles) {
   EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * eigen.eigenvalues()[11]);
 }
 
+// A quarter between two mirrors against the whole that it is a quarter of: a quarter of the energy, and the
+// same forces, of which vertices in a mirror have half, that in both a quarter.
+TEST(ShellPotential, MirrorsMakeAQuarterWhatTheWholeIs) {
+  std::mt19937 engine(9);
+  test::Mesh quarter = test::jittered(test::grid(5, 4, 1, 0.8), 0.2, 0.2, 6);
+  const auto count = static_cast<std::uint32_t>(quarter.positions.cols());
+  Positions x = bulged(quarter);
+  Conditions conditions(count);
+  conditions.mirrors = {{0, 0}, {1, 0}};
+  for (std::uint32_t v = 0; v < count; ++v)
+    for (int axis = 0; axis < 2; ++axis)
+      if (quarter.positions(axis, v) < 1e-9) {
+        x(axis, v) = 0;
+        conditions.hold(v, axis, 0);
+      }
+  // The other quarters: mirrored vertices are new but in the mirror, mirrored faces run the other way.
+  test::Mesh whole;
+  std::vector<Vector3d> rest, bent;
+  std::vector<std::array<std::uint32_t, 4>> image(count);  // of each vertex in each quarter
+  for (std::uint32_t v = 0; v < count; ++v)
+    for (std::uint32_t q = 0; q < 4; ++q) {
+      const bool on[2] = {conditions.held(0, v), conditions.held(1, v)};
+      const std::uint32_t same = q & ~((on[0] ? 1u : 0u) | (on[1] ? 2u : 0u));
+      if (same != q) {
+        image[v][q] = image[v][same];
+        continue;
+      }
+      const Vector3d turn((q & 1u) != 0 ? -1 : 1, (q & 2u) != 0 ? -1 : 1, 1);
+      image[v][q] = static_cast<std::uint32_t>(rest.size());
+      rest.push_back(quarter.positions.col(v).cwiseProduct(turn));
+      bent.push_back(x.col(v).cwiseProduct(turn));
+    }
+  for (const Face& face : quarter.faces)
+    for (std::uint32_t q = 0; q < 4; ++q) {
+      Face other = {image[face[0]][q], image[face[1]][q], image[face[2]][q]};
+      if (q == 1 || q == 2) std::swap(other[0], other[1]);
+      whole.faces.push_back(other);
+    }
+  const auto gathered = [](const std::vector<Vector3d>& points) {
+    return Positions(
+        Eigen::Map<const Positions>(points.front().data(), 3, static_cast<Eigen::Index>(points.size())));
+  };
+  whole.positions = gathered(rest);
+  const Loads loads;
+  const Conditions free(rest.size());
+  const Shell part = shell_of(quarter, Bending::midedge, Stretching::stvk),
+              all = shell_of(whole, Bending::midedge, Stretching::stvk);
+  Potential potential(part, conditions, loads);
+  const Potential full(all, free, loads);
+  VectorXd gradient, forces;
+  const double energy = potential.value(x, &gradient).energy,
+               four = full.value(gathered(bent), &forces).energy;
+  EXPECT_NEAR(energy, four / 4, 1e-13 * four);
+  const auto by_vertex = [](const Potential& p, const VectorXd& g, std::size_t vertices) {
+    Positions spread = Positions::Zero(3, static_cast<Eigen::Index>(vertices));
+    p.advance(spread, g, 1);
+    return spread;
+  };
+  const Positions here = by_vertex(potential, gradient, count), there = by_vertex(full, forces, rest.size());
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const double share = (conditions.held(0, v) ? 0.5 : 1) * (conditions.held(1, v) ? 0.5 : 1);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!conditions.held(axis, v)) {
+        EXPECT_NEAR(here(axis, v), share * there(axis, image[v][0]), 1e-12 * forces.cwiseAbs().maxCoeff());
+      }
+  }
+  const MatrixXd hessian = MatrixXd(potential.hessian(x, Curvature::exact)).selfadjointView<Eigen::Lower>();
+  test::expect_derivative(
+      [&](const VectorXd& by) {
+        Positions moved = x;
+        potential.advance(moved, by, 1);
+        VectorXd g;
+        potential.value(moved, &g);
+        return g;
+      },
+      [&](const VectorXd& d) { return VectorXd(hessian * d); },
+      VectorXd(VectorXd::Zero(potential.unknowns())), 0.1, engine);
+}
+
 TEST(ShellPotential, VolumeOfABox) {
   test::Mesh box = test::box({2, 3, 0.5});
   box.positions.colwise() += Vector3d(5, -1, 0);

@@ -1,0 +1,23 @@
+// The dense blocks of a sparse factorisation: where all of its time goes.
+//
+// K. Goto and R. van de Geijn, "Anatomy of High-Performance Matrix Multiplication", ACM TOMS 34 (2008):
+// blocks that stay in a cache, packed so that a small tile of the result is summed up in registers. AVX2 is
+// used where the processor has it. Every number is summed in the same order whatever the processor and the
+// number of threads, and nothing is fused, so the bytes are the same.
+#pragma once
+
+#include <cstddef>
+
+namespace plisse::shell {
+
+// C −= A Aᵀ in the rows at and below the diagonal: C(i, j) −= Σ_p A(i, p) A(j, p) for j < columns, j ≤ i <
+// rows. By columns, `a_stride` and `c_stride` numbers apart; A is rows × depth. Large ones on all cores.
+void subtract_products(const double* a, std::ptrdiff_t a_stride, double* c, std::ptrdiff_t c_stride,
+                       std::ptrdiff_t rows, std::ptrdiff_t columns, std::ptrdiff_t depth);
+
+// The first `width` columns of a Cholesky factor, in place: the square at the top, of which the lower half is
+// read, becomes L with L Lᵀ = it, what lies below it becomes (below) L⁻ᵀ. False where the square is not
+// positive definite.
+bool factorise_columns(double* panel, std::ptrdiff_t stride, std::ptrdiff_t height, std::ptrdiff_t width);
+
+}  // namespace plisse::shell
