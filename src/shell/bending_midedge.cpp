@@ -103,28 +103,40 @@ double bending_midedge(const Material& material, const RestFace& rest, const Mat
   if (gradient) gradient->setZero();
   if (hessian) hessian->setZero();
   if (gradient || hessian) {
-    std::array<Eigen::Matrix<double, 9, 18>, 3> jacobian;  // of (p, q, d) by corners and vertices across
     std::array<Vector18, 3> slope;
     for (int i = 0; i < 3; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (!live[at]) continue;
-      jacobian[at].setZero();
+      // p, q, d are what these have beyond corner i, which they all begin at.
       const std::array<int, 3> moved = {(i + 1) % 3, (i + 2) % 3, 3 + i};
+      slope[at].setZero();
       for (int k = 0; k < 3; ++k) {
-        jacobian[at].block<3, 3>(3 * k, 3 * moved[static_cast<std::size_t>(k)]).setIdentity();
-        jacobian[at].block<3, 3>(3 * k, 3 * i) = -Eigen::Matrix3d::Identity();
+        const Vector3d part = rise[at].first.segment<3>(3 * k);
+        slope[at].segment<3>(3 * moved[static_cast<std::size_t>(k)]) += part;
+        slope[at].segment<3>(3 * i) -= part;
       }
-      slope[at] = jacobian[at].transpose() * rise[at].first;
       const double force = 2 * scale * product(shape[at], difference);
       if (gradient) *gradient += force * slope[at];
-      if (hessian && curvature == Curvature::exact)
-        *hessian += jacobian[at].transpose() * (force * rise[at].second) * jacobian[at];
+      if (!hessian || curvature != Curvature::exact) continue;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) {
+          const Eigen::Matrix3d part = force * rise[at].second.block<3, 3>(3 * k, 3 * l);
+          const int row = 3 * moved[static_cast<std::size_t>(k)],
+                    column = 3 * moved[static_cast<std::size_t>(l)];
+          hessian->block<3, 3>(row, column) += part;
+          hessian->block<3, 3>(3 * i, column) -= part;
+          hessian->block<3, 3>(row, 3 * i) -= part;
+          hessian->block<3, 3>(3 * i, 3 * i) += part;
+        }
     }
     if (hessian)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          if (live[i] && live[j])
-            *hessian += 2 * scale * product(shape[i], shape[j]) * slope[i] * slope[j].transpose();
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (!live[j]) continue;
+        Vector18 sum = Vector18::Zero();
+        for (std::size_t i = 0; i < 3; ++i)
+          if (live[i]) sum += 2 * scale * product(shape[i], shape[j]) * slope[i];
+        hessian->noalias() += sum * slope[j].transpose();
+      }
   }
   return scale * product(difference, difference);
 }
