@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -15,6 +18,7 @@
 #include "cli/report.h"
 #include "config/suggest.h"
 #include "pipeline/drape.h"
+#include "pipeline/drape_cost.h"
 #include "pipeline/drape_examples.h"
 #include "pipeline/drape_setup.h"
 
@@ -65,13 +69,22 @@ struct Arguments {
            "--tolerance", tolerance,
            described("Converged where unbalanced forces are this share of those that meet (default 1e-8)"))
         ->type_name("SHARE");
+    app.add_option("--friction", friction,
+                   described("Coefficient of friction on obstacles, 0 to 1000 (default: the scene's)"))
+        ->type_name("MU");
+    app.add_option(
+           "--cost", cost,
+           described(
+               "Solve an example at each of these sizes, separated by commas, and plot what it costs: -o "
+               "cost.svg"))
+        ->type_name("N,N,…");
     app.add_option("--iterations", iterations, "At most so many Newton steps a frame (default 1000)")
         ->type_name("N");
   }
 
   CommonArguments common;
   std::string input, example, vertices, seed, model, residual, perturb, start, frames, steps,
-      output = "base.ply", tolerance, iterations;
+      output = "base.ply", tolerance, iterations, friction, cost;
   bool list = false;
 };
 
@@ -122,6 +135,8 @@ DrapeScene scene_of(const Arguments& arguments) {
     throw Error(ExitCode::bad_input,
                 "--residual is for tension fields: a stvk shell has all of its stiffness when it is slack");
   if (!arguments.residual.empty()) scene.residual = number_in("--residual", arguments.residual, 0, 1);
+  if (!arguments.friction.empty())
+    scene.loads.friction = number_in("--friction", arguments.friction, 0, 1000);
   if (!arguments.tolerance.empty())
     scene.newton.tolerance = number_in("--tolerance", arguments.tolerance, 1e-14, 1);
   if (!arguments.iterations.empty())
@@ -184,6 +199,56 @@ ordered_json to_json(const DrapeReport& report, const std::string& model) {
   return json;
 }
 
+int run_costs(Arguments arguments) {
+  std::vector<int> sizes;
+  for (std::size_t at = 0; at <= arguments.cost.size();) {
+    const std::size_t comma = std::min(arguments.cost.find(',', at), arguments.cost.size());
+    sizes.push_back(whole_number("--cost", arguments.cost.substr(at, comma - at), 20, 1000000));
+    at = comma + 1;
+  }
+  const std::filesystem::path output = arguments.output;
+  if (arguments.example.empty() || !arguments.vertices.empty() || output.extension() != ".svg")
+    throw Error(ExitCode::bad_input,
+                "--cost solves an --example at sizes of its own, and writes -o FILE.svg");
+  check_writable(output);
+  install_interrupt_handlers();
+  const auto costs = drape_costs(
+      [&](int vertices) {
+        arguments.vertices = std::to_string(vertices);
+        return scene_of(arguments);
+      },
+      sizes,
+      [](const DrapeCost& cost) {
+        log::notice(fmt::format(
+            "{} vertices: {} steps, {:.3g} s ({:.3g} s of CPU time), assembly {:.0f} %, "
+            "factorisation {:.0f} %{}",
+            cost.vertices, cost.iterations, cost.wall_s, cost.cpu_s, 100 * cost.assembly_s / cost.wall_s,
+            100 * cost.factor_s / cost.wall_s, cost.converged ? "" : ", NOT CONVERGED"));
+      });
+  if (interrupted()) return 128 + signal_number();
+  plot_costs(output, arguments.example, costs);
+  log::notice(fmt::format("→ {}", output.string()));
+  ordered_json json = {{"example", arguments.example}, {"costs", ordered_json::array()}};
+  bool converged = true;
+  for (const DrapeCost& cost : costs) {
+    converged = converged && cost.converged;
+    json["costs"].push_back({{"vertices", cost.vertices},
+                             {"iterations", cost.iterations},
+                             {"converged", cost.converged},
+                             {"energy_J", cost.energy},
+                             {"wall_s", cost.wall_s},
+                             {"cpu_s", cost.cpu_s},
+                             {"analysis_s", cost.analysis_s},
+                             {"assembly_s", cost.assembly_s},
+                             {"factor_s", cost.factor_s},
+                             {"line_search_s", cost.line_search_s},
+                             {"factor_nonzeros", cost.factor_nonzeros}});
+  }
+  json["outputs"] = {{{"path", output.string()}, {"kind", "plot"}}};
+  write_report(json, arguments.common.json());
+  return static_cast<int>(converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
 int run_drape(Arguments& arguments) {
   arguments.common.apply();
   if (arguments.list) {
@@ -194,6 +259,7 @@ int run_drape(Arguments& arguments) {
     write_stdout(text);
     return 0;
   }
+  if (!arguments.cost.empty()) return run_costs(arguments);
   DrapeRequest request{scene_of(arguments), arguments.frames, arguments.output, {}};
   const std::string model = request.scene.stretching == shell::Stretching::stvk ? "stvk" : "tension-field";
   install_interrupt_handlers();

@@ -63,6 +63,31 @@ TEST(DrapeFile, FabricsAreThoseOfPanelFiles) {
             HasSubstr("key 'young': follows from 'fabric'"), HasSubstr("'3 m' is no weight")));
 }
 
+TEST(DrapeFile, ForcesFrictionAndMirrors) {
+  const DrapeSettings s = parse_drape(
+      "[drape]\npanel = [1, 1]\n[loads]\nfriction = 0.4\n"
+      "[[hold]]\nbox = [[0, 0, 0], [0, 1, 0]]\naxes = \"x\"\nmirror = true\n"
+      "[[force]]\nvertices = [7]\ntotal = [0, 0, 2]\n"
+      "[[force]]\nbox = [[1, 0, 0], [1, 1, 0]]\nper_length = [3, 0, 0]\ngrows = true\n",
+      "cloth.toml");
+  EXPECT_EQ(s.friction, 0.4);
+  EXPECT_TRUE(s.holds.at(0).mirror);
+  ASSERT_EQ(s.forces.size(), 2U);
+  EXPECT_EQ(s.forces[0].total, glm::dvec3(0, 0, 2));
+  EXPECT_FALSE(s.forces[0].grows);
+  EXPECT_EQ(s.forces[1].per_length, glm::dvec3(3, 0, 0));
+  EXPECT_TRUE(s.forces[1].grows);
+  const std::string all = test::error_of([] {
+    parse_drape(
+        "[drape]\npanel = [1, 1]\n[[force]]\nvertices = [1]\n[[hold]]\nvertices = [1]\nmirror = true\n"
+        "[[force]]\nvertices = [1]\ntotal = [1, 1, 1]\ngrows = 1\n",
+        "bad.toml");
+  });
+  EXPECT_THAT(all,
+              AllOf(HasSubstr("bad.toml:3:1: [[force]] needs either 'total' or 'per_length'"),
+                    HasSubstr("a mirror is the plane across one axis"), HasSubstr("neither true nor false")));
+}
+
 TEST(DrapeFile, AllMistakesAtOnce) {
   const std::string all = test::error_of([] {
     parse_drape(

@@ -152,6 +152,59 @@ TEST(Drape, SceneFiles) {
   EXPECT_NEAR(high, -0.05, 1e-12);
 }
 
+// A strip pulled at its end, a metre of which bears 2 N: σ h = 2 N/m, so λ₁/2 (1 + λ₁)^½ · Y h = 2 (the load
+// is dead, a rest length). And the same from a quarter of it between mirrors.
+TEST(Drape, EdgeForcesAndMirrors) {
+  const TemporaryFolder folder;
+  const auto width = [&](const std::string& scene) {
+    write_text(folder / "strip.toml", scene);
+    const std::string base = (folder / "base.ply").string();
+    const Outcome outcome = plisse({"drape", (folder / "strip.toml").string(), "-o", base});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const io::Ply ply = io::read_ply(base);
+    double far = 0;
+    for (const double x : ply.find("vertex")->find("x")->values) far = std::max(far, x);
+    return far;
+  };
+  const std::string material =
+      "vertices = 100\nframes = 3\n[material]\nyoung = 1e5\nthickness = \"0.2 mm\"\npoisson = 0.3\n";
+  const std::string flat =
+      "[[hold]]\nbox = [[-9, -9, -9], [9, 9, 9]]\naxes = \"z\"\n[loads]\ngravity = [0, 0, 0]\n";
+  const double whole =
+      width("[drape]\npanel = [0.2, 0.1]\n" + material + flat +
+            "[[hold]]\nbox = [[-1, -1, -1], [1e-6, 1, 1]]\naxes = \"x\"\n"
+            "[[hold]]\nvertices = [0]\naxes = \"y\"\n"
+            "[[force]]\nbox = [[0.199999, -1, -1], [1, 1, 1]]\nper_length = [2, 0, 0]\ngrows = true\n");
+  const double stretch = whole / 0.2;  // F; λ₁ = F² − 1, and a rest length bears ½Yh λ₁ F of it
+  EXPECT_NEAR(0.5 * 1e5 * 2e-4 * (stretch * stretch - 1) * stretch, 2, 1e-6);
+  const double quarter = width("[drape]\npanel = [0.2, 0.05]\n" + material + flat +
+                               "[[hold]]\nbox = [[-1, -1, -1], [1e-6, 1, 1]]\naxes = \"x\"\nmirror = true\n"
+                               "[[hold]]\nbox = [[-1, -1, -1], [1, 1e-6, 1]]\naxes = \"y\"\nmirror = true\n"
+                               "[[force]]\nbox = [[0.199999, -1, -1], [1, 1, 1]]\nper_length = [2, 0, 0]\n");
+  EXPECT_NEAR(quarter, whole, 1e-6);
+}
+
+// Cloth over a ball that turns below it and moves aside: with friction it goes along.
+TEST(Drape, FrictionTakesClothAlong) {
+  const TemporaryFolder folder;
+  const auto middle = [&](const std::string& friction) {
+    write_text(folder / "carried.toml",
+               "[drape]\npanel = [0.3, 0.3]\nvertices = 120\nplane = \"xz\"\nframes = 5\niterations = 400\n"
+               "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n[loads]\nfriction = " +
+                   friction + "\n[[obstacle]]\nkind = \"plane\"\nat = [0, -0.001, 0]\nmove = [0.05, 0, 0]\n");
+    const std::string base = (folder / "base.ply").string();
+    const Outcome outcome = plisse({"drape", (folder / "carried.toml").string(), "-o", base});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const io::Ply ply = io::read_ply(base);
+    double sum = 0;
+    const auto& x = ply.find("vertex")->find("x")->values;
+    for (const double one : x) sum += one / static_cast<double>(x.size());
+    return sum;
+  };
+  // The way of the plane, up to the slip length of a tenth of the gap of 2 mm.
+  EXPECT_NEAR(middle("0.3") - middle("0"), 0.05, 3e-4);
+}
+
 // A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top, frame by frame.
 TEST(Drape, ClothIsNotCarriedThroughObstacles) {
   const TemporaryFolder folder;
@@ -365,6 +418,42 @@ TEST(Drape, GarmentsAreSewnAndWrapped) {
   write_text(folder / "cube.toml", "[drape]\ngarment = \"skirt.toml\"\npanel = [1, 1]\n");
   EXPECT_THAT(plisse({"drape", (folder / "cube.toml").string()}).err,
               HasSubstr("needs one of 'mesh', 'garment' and 'panel'"));
+}
+
+TEST(Drape, CostsArePlotted) {
+  const TemporaryFolder folder;
+  const std::string plot = (folder / "cost.svg").string(), report = (folder / "cost.json").string();
+  const Outcome outcome =
+      plisse({"drape", "--example", "stretched-sheet", "--cost", "60,240", "-o", plot, "--json", report});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(read_text(plot), AllOf(HasSubstr("<svg"), HasSubstr("factorisation")));
+  const auto json = nlohmann::json::parse(read_text(report));
+  ASSERT_EQ(json["costs"].size(), 2U);
+  for (const auto& cost : json["costs"]) {
+    EXPECT_TRUE(cost["converged"].get<bool>());
+    // What is told apart is no more than the whole.
+    EXPECT_LE(cost["assembly_s"].get<double>() + cost["factor_s"].get<double>(),
+              cost["wall_s"].get<double>());
+  }
+  const Outcome odd = plisse({"drape", "--example", "strip", "--cost", "60,", "-o", plot});
+  EXPECT_EQ(odd.code, 2);
+  EXPECT_THAT(odd.err, HasSubstr("--cost"));
+}
+
+// Held at one corner from lying flat it is free to turn, which dead loads have a least energy of: it swings
+// down and hangs below.
+TEST(Drape, AHandkerchiefOnAPegHangs) {
+  const TemporaryFolder folder;
+  write_text(folder / "peg.toml",
+             "[drape]\npanel = [0.3, 0.3]\nvertices = 120\nplane = \"xz\"\n"
+             "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n"
+             "[[hold]]\nbox = [[-1, -1, -1e-6], [1e-6, 1, 1e-6]]\n");
+  const std::string base = (folder / "base.ply").string();
+  const Outcome outcome = plisse({"drape", (folder / "peg.toml").string(), "-o", base});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  double low = 0;
+  for (const double y : io::read_ply(base).find("vertex")->find("y")->values) low = std::min(low, y);
+  EXPECT_LT(low, -0.3 * 1.414);  // all of its diagonal, and stretched by its weight
 }
 
 TEST(Drape, SmallExamplesAreSewn) {
