@@ -79,9 +79,11 @@ Eigen::Matrix3d fitted_curvature(const BaseSurface& surface, const Eigen::Matrix
     if (!(normals.col(v).dot(normal) > 0)) continue;  // the other side of a fold
     const Vector3d d = (surface.positions.col(v) - centre) / size;
     const double x = d.dot(tangent.col(0)), y = d.dot(tangent.col(1));
+    // Surfaces are not quadratics: what is far off counts little, and would bend most of them too much.
+    const double weight = std::exp(-4 * (x * x + y * y));
     const Eigen::Matrix<double, 5, 1> terms{x, y, x * x / 2, x * y, y * y / 2};
-    normal_matrix += terms * terms.transpose();
-    right += terms * d.dot(normal);
+    normal_matrix += weight * terms * terms.transpose();
+    right += weight * d.dot(normal) * terms;
   }
   const Eigen::Matrix<double, 5, 1> fit = normal_matrix.completeOrthogonalDecomposition().solve(right);
   Matrix2d second;

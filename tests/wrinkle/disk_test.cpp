@@ -121,9 +121,9 @@ TEST_F(Disk, WithTheirCurvatureTermTheirFields) {
     square += one_form_[i] * one_form_[i];
     difference += (form[i] - one_form_[i]) * (form[i] - one_form_[i]);
   }
-  // Their curvature estimate is another one, which moves the number of waves by 1 %.
-  EXPECT_LT(std::sqrt(difference / square), 0.015);
-  EXPECT_LT((solution.waves.amplitude - amplitude_).norm() / amplitude_.norm(), 0.015);
+  // What is asked for; nearly all of it is shape, since the number of waves is theirs to a thousandth.
+  EXPECT_LT(std::sqrt(difference / square), 0.01);
+  EXPECT_LT((solution.waves.amplitude - amplitude_).norm() / amplitude_.norm(), 0.01);
 }
 
 }  // namespace
