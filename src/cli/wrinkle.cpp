@@ -77,9 +77,10 @@ struct Arguments {
         "--free-held", free_held,
         "Waves also where the surface was held while draping; without it their amplitude is 0 there");
     app.add_option("--without", without,
-                   described("Leave a correction out, to see what it does: v1 (waves lean with the surface's "
-                             "curvature) or v2 (waves bulge sideways); may be given twice"))
-        ->type_name("v1|v2")
+                   described("Leave something out, to see what it does: v1 (waves lean with the surface's "
+                             "curvature), v2 (waves bulge sideways) or relaxation (phases need not close "
+                             "where there are no waves); may be given more than once"))
+        ->type_name("v1|v2|relaxation")
         ->take_all();
     app.add_option(
            "--curvature", curvature,
@@ -96,6 +97,11 @@ struct Arguments {
         described(
             "Start with waves .5, .7, 1.4 and 2 times as dense, too, and take the lowest energy, patch by "
             "patch"));
+    app.add_flag(
+        "--local-law", local_law,
+        described(
+            "Wavelengths by Vandeparre's law of the distance from where the surface is held, and nothing "
+            "solved, to see what the solve is for"));
     app.add_flag(
         "--crest-compression", crest_compression,
         described("Let compression along the crests count where there is some both ways, as the paper's "
@@ -114,7 +120,7 @@ struct Arguments {
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
                                     iterations = "500";
   std::vector<std::string> without, evaluate;
-  bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false;
+  bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false, local_law = false;
 };
 
 double number_in(const std::string& option, const std::string& text, double low, double high) {
@@ -161,8 +167,8 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.rule =
       arguments.rule == "paper" ? wrinkle::WrinkleFreeRule::paper : wrinkle::WrinkleFreeRule::authors;
   for (const std::string& term : arguments.without) {
-    one_of("--without", term, {"v1", "v2"});
-    (term == "v1" ? request.v1 : request.v2) = false;
+    one_of("--without", term, {"v1", "v2", "relaxation"});
+    (term == "v1" ? request.v1 : term == "v2" ? request.v2 : request.relaxed_integrability) = false;
   }
   if (arguments.curvature == "mid-edge")
     request.curvature.kind = wrinkle::CurvatureFit::mid_edge;
@@ -172,6 +178,11 @@ WrinkleRequest request_of(const Arguments& arguments) {
   request.options.frequency = number_in("--frequency", arguments.frequency, 1e-3, 1e3);
   request.options.solve.max_iterations = whole_number("--iterations", arguments.iterations, 0, 1000000);
   request.options.all_starts = arguments.all_starts;
+  request.options.local_law = arguments.local_law;
+  if (arguments.local_law && (is_sequence(arguments) || arguments.free_held))
+    throw Error(ExitCode::bad_input,
+                "--local-law is for one surface, and counts from where it is held: leave out the sequence "
+                "and --free-held");
   request.crest_compression = arguments.crest_compression;
   request.pin_held = !arguments.free_held;
   request.output = !arguments.output.empty() ? arguments.output

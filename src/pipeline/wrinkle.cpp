@@ -41,8 +41,12 @@ double value_in(const io::Ply& ply, const fs::path& file, const std::string& nam
 }  // namespace
 
 wrinkle::Model model_of(const WrinkleRequest& request) {
-  return {request.scene.material, request.v1, request.v2, request.curvature_factor,
-          request.crest_compression};
+  return {request.scene.material,
+          request.v1,
+          request.v2,
+          request.curvature_factor,
+          request.crest_compression,
+          request.relaxed_integrability};
 }
 
 WrinkleScene read_base(const fs::path& file) {

@@ -30,7 +30,7 @@ struct WrinkleRequest {
   WrinkleScene scene;
   wrinkle::WrinkleFreeRule rule = wrinkle::WrinkleFreeRule::paper;
   wrinkle::CurvatureFit curvature;
-  bool v1 = true, v2 = true;  // ablations, see wrinkle::Model
+  bool v1 = true, v2 = true, relaxed_integrability = true;  // ablations, see wrinkle::Model
   double curvature_factor = 1;
   bool crest_compression = false;
   bool pin_held = true;  // no amplitude where the surface is held

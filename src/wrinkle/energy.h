@@ -22,6 +22,8 @@ struct Model {
   // counts as 0 there: tension field theory has such cloth slack, and what shortens it along the crests is
   // nothing that these waves could take up but by amplitudes that zigzag from vertex to vertex.
   bool crest_compression = false;
+  // Without: ω has to close on wrinkle-free faces as well (section 5.1 and fig. 5 say why it must not).
+  bool relaxed_integrability = true;
 };
 
 // S of W¹: the strain, but for what the model says of compression along the crests.

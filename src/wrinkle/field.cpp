@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "wrinkle/local_law.h"
 #include "wrinkle/local_waves.h"
 #include "wrinkle/patches.h"
 #include "wrinkle/singularities.h"
@@ -35,9 +36,9 @@ Waves flat_waves(const Problem& problem) {
 // Vertices of live faces that have no amplitude at any corner.
 std::vector<bool> dead_vertices(const Problem& problem, const Waves& waves) {
   std::vector<bool> dead(problem.pinned().size(), false);
-  for (std::size_t f = 0; f < problem.complex().live.size(); ++f) {
+  for (std::size_t f = 0; f < problem.live().size(); ++f) {
     const shell::Face& t = problem.topology().faces[f];
-    if (!problem.complex().live[f]) continue;
+    if (!problem.live()[f]) continue;
     if (waves.amplitude[t[0]] > 0 || waves.amplitude[t[1]] > 0 || waves.amplitude[t[2]] > 0) continue;
     for (const std::uint32_t v : t) dead[v] = true;
   }
@@ -59,10 +60,10 @@ class Search {
         problem_(whole_) {
     clamped_.resize(topology.vertex_count, false);
     // Which vertices would have waves if each face could do as it likes.
-    const auto local = local_waves(forms, topology, problem_->complex().live, problem_->pinned(), model);
+    const auto local = local_waves(forms, topology, problem_->live(), problem_->pinned(), model);
     VectorXd wish = VectorXd::Zero(static_cast<Index>(topology.vertex_count));
     for (std::size_t f = 0; f < local.size(); ++f) {
-      if (!problem_->complex().live[f]) continue;
+      if (!problem_->live()[f]) continue;
       const bool wants = local[f].compression > local[f].critical(model, local[f].gradient.norm());
       for (const std::uint32_t v : topology.faces[f]) wish[v] += (wants ? 1 : -1) * forms[f].rest.area;
     }
@@ -83,14 +84,15 @@ class Search {
           {frequency * options_.frequency, end.start_energy, end.energy, end.iterations, end.converged});
     }
     best_ = lowest_by_patch(std::move(ends));
-    opened();
+    if (whole_->model().relaxed_integrability) opened();
   }
 
   void release() {
     constexpr int rounds = 4;  // each is a solve or a few; most fields need one or two
     for (int round = 0; round < rounds && !flat(best_.waves); ++round) {
       const std::vector<bool> dead = dead_vertices(*problem_, best_.waves);
-      if (!revived(dead) && !widened(dead) && !won_back()) break;
+      if (revived(dead)) continue;
+      if (!whole_->model().relaxed_integrability || (!widened(dead) && !won_back())) break;
     }
     if (!best_.converged && best_.iterations < options_.solve.max_iterations)
       best_ = run(*problem_, best_.waves, options_.solve);
@@ -99,7 +101,7 @@ class Search {
   void finish(Field& field) {
     field.released.assign(forms_.size(), false);
     for (std::size_t f = 0; f < forms_.size(); ++f)
-      field.released[f] = whole_->complex().live[f] && !problem_->complex().live[f];
+      field.released[f] = whole_->live()[f] && !problem_->live()[f];
     field.real = std::move(best_);
     field.trace = std::move(trace_);
   }
@@ -138,7 +140,7 @@ class Search {
     none.converged = true;
     none.reason = "stationary";
     Solution best = ends[0];
-    const auto parts = patches(problem_->topology(), problem_->complex().live);
+    const auto parts = patches(problem_->topology(), problem_->live());
     std::vector<VectorXd> energy;
     ends.push_back(none);
     for (const Solution& end : ends) energy.push_back(problem_->face_energies(problem_->pack(end.waves)));
@@ -175,10 +177,10 @@ class Search {
   // One face released at every vertex round which waves would turn: on a closed surface, or on a disk whose
   // waves are rays, they could not even begin to close otherwise.
   bool opened() {
-    const std::vector<int> index = double_index(forms_, whole_->topology(), whole_->complex().live);
+    const std::vector<int> index = double_index(forms_, whole_->topology(), whole_->live());
     std::vector<std::uint32_t> calmest(index.size(), shell::none);  // the least compressed face round each
     for (std::uint32_t f = 0; f < forms_.size(); ++f) {
-      if (!whole_->complex().live[f]) continue;
+      if (!whole_->live()[f]) continue;
       for (const std::uint32_t v : whole_->topology().faces[f]) {
         if (index[v] == 0 || !wants_[v]) continue;
         if (calmest[v] == shell::none ||
@@ -250,11 +252,51 @@ class Search {
   Clock::time_point begin_ = Clock::now();
 };
 
+// A state that nothing minimised.
+Solution unsolved(const Problem& problem, Waves waves) {
+  Solution solution;
+  VectorXd first;
+  const VectorXd x = problem.pack(waves);
+  const double energy = problem.gradient(x, first);
+  solution.kkt = kkt_residual(problem, x, energy, first);
+  solution.start_energy = solution.energy = energy + problem.relaxed_energy();
+  solution.trace = {{0, 0, solution.energy}};
+  solution.converged = true;
+  solution.reason = "a local law, not solved";
+  solution.waves = std::move(waves);
+  return solution;
+}
+
+void read_off(const Problem& problem, Field& field) {
+  const Waves& waves = field.whole.waves;
+  field.one_form = problem.one_form(waves);
+  field.phase = corner_phases(problem, waves);
+  field.phase_residual = phase_residual(problem, field.real.waves, waves);
+  field.count =
+      count_waves(problem.topology(), problem.forms(), problem.live(), waves.amplitude, field.one_form);
+  field.waves = field.count.waves;
+}
+
+Field by_local_law(const Problem& problem, const std::vector<bool>& clamped) {
+  const auto begin = Clock::now();
+  Field field;
+  field.real = unsolved(problem, vandeparre_waves(problem, clamped));
+  field.trace = field.real.trace;
+  field.released.assign(problem.forms().size(), false);
+  field.solve_s = since(begin);
+  const auto phase_begin = Clock::now();
+  field.whole = unsolved(problem, with_whole_periods(problem, field.real.waves));
+  read_off(problem, field);
+  field.phase_s = since(phase_begin);
+  return field;
+}
+
 }  // namespace
 
 Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped,
                   const FieldOptions& options) {
+  if (options.local_law) return by_local_law(Problem(topology, forms, model, wrinkle_free, clamped), clamped);
   const auto begin = Clock::now();
   Field field;
   Search search(topology, forms, model, wrinkle_free, clamped, options);
@@ -269,12 +311,7 @@ Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>&
   field.whole = field.real.waves.period.size() == 0
                     ? field.real
                     : solve(problem, with_whole_periods(problem, field.real.waves), fixed);
-  field.one_form = problem.one_form(field.whole.waves);
-  field.phase = corner_phases(problem, field.whole.waves);
-  field.phase_residual = phase_residual(problem, field.real.waves, field.whole.waves);
-  field.count =
-      count_waves(topology, forms, problem.complex().live, field.whole.waves.amplitude, field.one_form);
-  field.waves = field.count.waves;
+  read_off(problem, field);
   field.phase_s = since(phase_begin);
   return field;
 }

@@ -13,7 +13,9 @@ namespace plisse::wrinkle {
 
 struct FieldOptions {
   SolveOptions solve;
-  double frequency = 1;     // of the start, see initial_waves
+  double frequency = 1;  // of the start, see initial_waves
+  // Vandeparre's law in place of the solve (local_law.h): nothing is minimised, periods are rounded.
+  bool local_law = false;
   bool all_starts = false;  // also from ½, 1/√2, √2 and 2 times that; patch by patch the lowest is taken
 };
 

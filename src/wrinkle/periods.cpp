@@ -93,7 +93,7 @@ Waves with_whole_periods(const Problem& problem, const Waves& waves) {
 double phase_residual(const Problem& problem, const Waves& real, const Waves& whole) {
   double difference = 0, all = 0;
   for (std::size_t f = 0; f < problem.forms().size(); ++f) {
-    if (!problem.complex().live[f]) continue;
+    if (!problem.live()[f]) continue;
     const auto gradient = [&](const Waves& w) {
       return Eigen::Vector2d(problem.forms()[f].rest.gradients *
                              problem.complex().corner_phases(f, w.phase, w.period));

@@ -68,13 +68,15 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
       model_(model),
       wrinkle_free_(std::move(wrinkle_free)),
       pinned_(pinned_vertices(topology_, wrinkle_free_, clamped)),
-      complex_(topology_, live_faces(topology_, wrinkle_free_, pinned_), pinned_) {
+      live_(live_faces(topology_, wrinkle_free_, pinned_)),
+      complex_(topology_, model.relaxed_integrability ? live_ : std::vector<bool>(live_.size(), true),
+               model.relaxed_integrability ? pinned_ : std::vector<bool>(pinned_.size(), false)) {
   shell::check(model.material);
   for (std::size_t v = 0; v < pinned_.size(); ++v)
     amplitude_unknown_.push_back(pinned_[v] ? -1 : amplitude_count_++);
   size_ = period_begin() + static_cast<Index>(complex_.periods);
 
-  const std::vector<LocalWaves> own = local_waves(forms_, topology_, complex_.live, pinned_, model_);
+  const std::vector<LocalWaves> own = local_waves(forms_, topology_, live_, pinned_, model_);
   double amplitude = 0, frequency = 0;
   for (const LocalWaves& w : own) {
     const double rate = w.gradient.norm();
@@ -84,7 +86,7 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
   frequency_scale_ = frequency > 0 ? frequency : 1;
   amplitude_scale_ = amplitude > 0 ? amplitude : model_.material.thickness;
   upper_ = VectorXd::Zero(amplitude_count_);
-  for (const auto& patch : patches(topology_, complex_.live)) {
+  for (const auto& patch : patches(topology_, live_)) {
     double strongest = 0;
     for (const std::uint32_t f : patch) strongest = std::max(strongest, own[f].compression);
     const double longest = PatchGraph(topology_, forms_, patch).diameter() / (2 * std::numbers::pi),
@@ -98,7 +100,7 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
 
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {
-    if (!complex_.live[f]) {
+    if (!live_[f]) {
       // Pinned all round: flat, whatever the rest does.
       const FaceEnergy still(forms_[f], model_);
       if (!wrinkle_free_[f]) relaxed_energy_ += still.relaxed() + still.value(LocalVector::Zero());

@@ -29,6 +29,7 @@ class Problem {
   const std::vector<FaceForms>& forms() const { return forms_; }
   const Model& model() const { return model_; }
   const PhaseComplex& complex() const { return complex_; }
+  const std::vector<bool>& live() const { return live_; }      // one a face: carries energy
   const std::vector<bool>& pinned() const { return pinned_; }  // one a vertex: a = 0
   const std::vector<bool>& wrinkle_free() const { return wrinkle_free_; }
 
@@ -93,8 +94,8 @@ class Problem {
   shell::Topology topology_;
   std::vector<FaceForms> forms_;
   Model model_;
-  std::vector<bool> wrinkle_free_, pinned_;
-  PhaseComplex complex_;
+  std::vector<bool> wrinkle_free_, pinned_, live_;
+  PhaseComplex complex_;  // of the live faces; of all where integrability is not relaxed
   std::vector<Eigen::Index> amplitude_unknown_;  // of a vertex, −1 where pinned
   Eigen::Index amplitude_count_ = 0, size_ = 0;
   double relaxed_energy_ = 0;

@@ -164,8 +164,8 @@ Waves FieldSequence::carried(const Problem& problem, const CoarseField& before) 
 }
 
 FieldSequence::State FieldSequence::state_of(const Problem& problem, const Waves& waves) const {
-  const WaveCount count = count_waves(topology_, problem.forms(), problem.complex().live, waves.amplitude,
-                                      problem.one_form(waves));
+  const WaveCount count =
+      count_waves(topology_, problem.forms(), problem.live(), waves.amplitude, problem.one_form(waves));
   // Round a loop they are whole but for rounding.
   return {{waves.amplitude, corner_phases(problem, waves)},
           count.round ? std::round(count.waves) : count.waves};

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 void comb(std::vector<LocalWaves>& waves, const Problem& problem, const std::vector<bool>& known) {
   const std::vector<FaceForms>& forms = problem.forms();
   const shell::Topology& topology = problem.topology();
-  const std::vector<bool>& live = problem.complex().live;
+  const std::vector<bool>& live = problem.live();
   struct Link {
     double surety;
     std::size_t from, to;
@@ -109,7 +109,7 @@ VectorXd suiting_amplitudes(const Problem& problem, const std::vector<LocalWaves
                             Suits suits = Suits::projected, double frequency = 1) {
   VectorXd amplitude = VectorXd::Zero(static_cast<Index>(problem.pinned().size())), weight = amplitude;
   for (std::size_t f = 0; f < local.size(); ++f) {
-    if (!problem.complex().live[f]) continue;
+    if (!problem.live()[f]) continue;
     const double area = problem.forms()[f].rest.area;
     const double best = suits == Suits::uncritical
                             ? std::sqrt(2 * std::max(local[f].compression, 0.0)) / local[f].gradient.norm()
@@ -133,23 +133,35 @@ double sum_over(const std::vector<std::uint32_t>& faces, const VectorXd& of_face
   return sum;
 }
 
-}  // namespace
-
-Waves initial_waves(const Problem& problem, double frequency) {
-  const PhaseComplex& complex = problem.complex();
+// Signs combed, and weights by area and compression.
+Target combed(const Problem& problem, std::vector<LocalWaves> local) {
   Target target;
-  target.local =
-      local_waves(problem.forms(), problem.topology(), complex.live, problem.pinned(), problem.model());
+  target.local = std::move(local);
   double most = 0;
-  for (LocalWaves& l : target.local) {
-    most = std::max(most, l.compression);
-    l.gradient *= frequency;
-  }
+  for (const LocalWaves& l : target.local) most = std::max(most, l.compression);
   comb(target.local, problem, std::vector<bool>(target.local.size(), false));
   // Faces without compression still hold the form together.
   for (std::size_t f = 0; f < target.local.size(); ++f)
     target.weight.push_back(problem.forms()[f].rest.area *
                             (most > 0 ? std::max(target.local[f].compression / most, 1e-3) : 1));
+  return target;
+}
+
+}  // namespace
+
+Waves waves_of(const Problem& problem, std::vector<LocalWaves> local) {
+  const Target target = combed(problem, std::move(local));
+  Waves waves;
+  fit(problem, target, waves);
+  waves.amplitude = suiting_amplitudes(problem, target.local, waves, Suits::uncritical);
+  return waves;
+}
+
+Waves initial_waves(const Problem& problem, double frequency) {
+  std::vector<LocalWaves> local =
+      local_waves(problem.forms(), problem.topology(), problem.live(), problem.pinned(), problem.model());
+  for (LocalWaves& l : local) l.gradient *= frequency;
+  const Target target = combed(problem, std::move(local));
   Waves fitted;
   fit(problem, target, fitted);
 
@@ -159,7 +171,7 @@ Waves initial_waves(const Problem& problem, double frequency) {
   Waves start = fitted;
   start.amplitude = VectorXd::Zero(static_cast<Index>(problem.pinned().size()));
   const VectorXd flat = problem.face_energies(problem.pack(start));
-  const auto faces = patches(problem.topology(), complex.live);
+  const auto faces = patches(problem.topology(), problem.live());
   std::vector<bool> done(faces.size(), false);
   std::vector<double> gained(faces.size(), 0);
   for (const int step : {0, 1, -1, 2, -2, 3, -3, 4, -4, 6, -6, 8, -8}) {
@@ -196,13 +208,13 @@ Waves initial_waves(const Problem& problem, double frequency) {
 Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves) {
   const std::size_t count = to.forms().size();
   Target target;
-  target.local = local_waves(to.forms(), to.topology(), to.complex().live, to.pinned(), to.model());
+  target.local = local_waves(to.forms(), to.topology(), to.live(), to.pinned(), to.model());
   const double most = waves.amplitude.size() > 0 ? waves.amplitude.maxCoeff() : 0;
   std::vector<bool> known(count, false);
   for (std::size_t f = 0; f < count; ++f) {
     const shell::Face& t = to.topology().faces[f];
     const double mean = (waves.amplitude[t[0]] + waves.amplitude[t[1]] + waves.amplitude[t[2]]) / 3;
-    known[f] = to.complex().live[f] && from.complex().live[f] && mean > 0;
+    known[f] = to.live()[f] && from.live()[f] && mean > 0;
     if (known[f]) target.local[f].gradient = gradient_of(from, waves, f);
     // What there is stays, the more the higher it is; the rest follows as far as it likes to.
     target.weight.push_back(to.forms()[f].rest.area * ((known[f] ? mean * mean / (most * most) : 0) + 1e-3));

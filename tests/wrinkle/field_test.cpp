@@ -89,6 +89,33 @@ TEST(WrinkleField, PatchesApart) {
   expect_consistent(tube.topology, field);
 }
 
+// Waves across a sheet with two holes go past both: periods round them are there, and 0.
+TEST(WrinkleField, HolesThatNoWaveGoesRound) {
+  test::Grid grid(0.4, 0.3, 20, 15);
+  std::vector<shell::Face> faces;
+  for (const shell::Face& f : grid.faces) {
+    const Eigen::Vector3d c = grid.centre(f);
+    if ((c - Eigen::Vector3d(0.12, 0.15, 0)).norm() > 0.04 &&
+        (c - Eigen::Vector3d(0.3, 0.12, 0)).norm() > 0.03)
+      faces.push_back(f);
+  }
+  ASSERT_LT(faces.size(), grid.faces.size());
+  grid.faces = faces;
+  const auto forms = test::prescribed(
+      grid, [](const Eigen::Vector3d&) { return test::diagonal(-0.3 * 0.02 - 0.01, 0.02); },
+      [](const Eigen::Vector3d&) { return test::diagonal(0, 0.5); });
+  const shell::Topology topology = shell::build_topology(faces, static_cast<std::size_t>(grid.rest.cols()));
+  const Model model = test::model(1e6, 0.3, 1e-3);
+  const Field field = solve_field(topology, forms, model, std::vector<bool>(faces.size(), false));
+  EXPECT_TRUE(field.real.converged && field.whole.converged) << field.real.reason;
+  ASSERT_EQ(field.whole.waves.period.size(), 2);
+  EXPECT_NEAR(field.whole.waves.period.cwiseAbs().maxCoeff(), 0, 1e-12);
+  // One wave vector all over, as on a sheet without holes: |ω|⁴ = 12(1 − ν²)κ²/h² (docs/wrinkle.md).
+  const double waves = std::pow(12 * (1 - 0.09) * 0.25, 0.25) / std::sqrt(1e-3) * 0.4 / turn;
+  EXPECT_NEAR(field.waves / waves, 1, 1e-3);
+  expect_consistent(topology, field);
+}
+
 TEST(WrinkleField, ExtremeMaterialsAndStrains) {
   const struct {
     const char* what;
