@@ -1,0 +1,143 @@
+"""What the recipes of tools/figures work with.
+
+A recipe is a file tools/recipes/NAME.py: its first line says what it shows, MAKES lists the files that it leaves in
+docs/figures, MEASURES (if it is there and true) says that it measures times, and make(kit) makes them. Whatever goes
+through the kit is written down in NAME.sh beside them.
+"""
+import csv
+import importlib
+import json
+import os
+import pathlib
+import platform
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+
+class Recipe:
+    def __init__(self, name):
+        module = importlib.import_module('recipes.' + name)
+        self.name, self.make, self.makes = name, module.make, module.MAKES
+        self.about = module.__doc__.strip().splitlines()[0].rstrip('.')
+        self.measures = getattr(module, 'MEASURES', False)
+
+
+def load_recipes():
+    """All of them, those that measure last: what they find is the machine's, and they take longest."""
+    names = sorted(p.stem for p in (ROOT / 'tools/recipes').glob('*.py') if p.stem != 'kit')
+    return sorted((Recipe(name) for name in names), key=lambda recipe: recipe.measures)
+
+
+def program_folder():
+    return pathlib.Path(os.environ.get('PLISSE_BUILD', ROOT / 'build/release')).resolve()
+
+
+def table_mark(name, which):
+    return f'<!-- table {name} {which}: made by tools/figures -->'
+
+
+def markdown(header, rows):
+    lines = ['| ' + ' | '.join(header) + ' |', '|' + '---|' * len(header)]
+    lines += ['| ' + ' | '.join(str(cell) for cell in row) + ' |' for row in rows]
+    return '\n'.join(lines)
+
+
+def provenance(command):
+    """A sentence for under a table of times: the command, the day, the machine."""
+    processor = next((line.split(':', 1)[1].strip() for line in open('/proc/cpuinfo') if line.startswith('model name')),
+                     platform.machine())
+    return (f'`{command}`, {time.strftime("%Y-%m-%d")}, {processor}, {os.cpu_count()} threads of hardware, '
+            f'load {os.getloadavg()[0]:.1f}.')
+
+
+class Kit:
+    """Runs one recipe in a scratch folder, `self.work`; used with `with`."""
+
+    def __init__(self, recipe, folder, size, pages, program):
+        self.recipe, self.folder, self.size, self.pages, self.program = recipe, folder, size, pages, program
+        self.script, self.kept = [], []
+
+    def __enter__(self):
+        self.scratch = tempfile.TemporaryDirectory(prefix='plisse_figures_')
+        self.work = pathlib.Path(self.scratch.name)
+        # So that commands read the same in the scratch folder as in a clone.
+        for name in ('assets', 'tools'):
+            (self.work / name).symlink_to(ROOT / name)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        return self
+
+    def __exit__(self, *_):
+        self.scratch.cleanup()
+
+    # --- what recipes call; paths are below the scratch folder, where assets/ and tools/ are as in a clone
+
+    def write(self, name, text):
+        """A file of the recipe's own."""
+        (self.work / name).write_text(text)
+        self.script.append(f"cat > {name} << 'END'\n{text.rstrip()}\nEND")
+
+    def plisse(self, *arguments, codes=(0,)):
+        """Runs plisse and returns its --json report. `codes`: exit codes that are fine."""
+        words = [str(a) for a in arguments]
+        self.script.append('plisse ' + ' '.join(shlex.quote(word) for word in words))
+        report = self.work / 'report.json'
+        report.unlink(missing_ok=True)
+        done = subprocess.run([self.program, *words, '-q', '--json', report], cwd=self.work, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+        if done.returncode not in codes:
+            sys.exit(f'tools/figures {self.recipe.name}: {self.script[-1]}\nended with {done.returncode}:\n{done.stdout[-3000:]}')
+        return json.loads(report.read_text()) if report.exists() else {}
+
+    def run(self, *command):
+        """Runs another program, of tools/ say, and returns what it printed."""
+        words = [str(word) for word in command]
+        self.script.append(' '.join(shlex.quote(word) for word in words))
+        done = subprocess.run(words, cwd=self.work, stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            sys.exit(f'tools/figures {self.recipe.name}: {self.script[-1]}\nended with {done.returncode}')
+        return done.stdout
+
+    def frame(self, scene, picture, number=1, *options):
+        """One frame of a scene as docs/figures/PICTURE."""
+        self.plisse('render', scene, '-o', picture, '--frames', number, '--size', self.size, *options)
+        self.keep(picture)
+
+    def keep(self, file, name=None):
+        """A file that was made, into docs/figures, under its own or another name."""
+        name = name or pathlib.Path(file).name
+        if name not in self.recipe.makes:
+            sys.exit(f'tools/recipes/{self.recipe.name}.py: MAKES lacks {name}')
+        shutil.copyfile(self.work / file, self.folder / name)
+        self.kept.append(name)
+        if pathlib.Path(file).name != name:
+            self.script.append(f'cp {shlex.quote(str(file))} {shlex.quote(name)}')
+
+    def table(self, name, header, rows, page=None, note=''):
+        """docs/figures/NAME.csv, and as Markdown between the table's marks in `page` of docs/."""
+        with open(self.work / f'{name}.csv', 'w', newline='') as out:
+            csv.writer(out).writerows([header, *rows])
+        self.keep(f'{name}.csv')
+        if page and self.pages:
+            path = ROOT / 'docs' / page
+            text = path.read_text()
+            begin, end = table_mark(name, 'begin'), table_mark(name, 'end')
+            if begin not in text or end not in text:
+                sys.exit(f'docs/{page}: no "{begin}" … "{end}" for the table to stand between')
+            head, tail = text.split(begin)[0], text.split(end)[1]
+            body = markdown(header, rows) + (f'\n\n{note}' if note else '')
+            path.write_text(f'{head}{begin}\n{body}\n{end}{tail}')
+
+    def finish(self):
+        """Writes the commands down; the names of what was made."""
+        missing = set(self.recipe.makes) - set(self.kept)
+        if missing:
+            sys.exit(f'tools/recipes/{self.recipe.name}.py: it did not make {", ".join(sorted(missing))}')
+        about = f'# {self.recipe.about}: {", ".join(self.recipe.makes)}\n# (tools/figures {self.recipe.name})\n'
+        (self.folder / f'{self.recipe.name}.sh').write_text(about + '\n'.join(self.script) + '\n')
+        return self.kept
