@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/arguments.h"
+#include "cli/cache_arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
 #include "config/suggest.h"
@@ -28,7 +29,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app) {
+  explicit Arguments(CLI::App& app) : common(app), cache(app) {
     app.add_option("input", input,
                    described("A drape scene (docs/drape.md lists its keys), or a set-up of the TFW authors"))
         ->type_name("SCENE.toml|SETUP.json");
@@ -83,6 +84,7 @@ struct Arguments {
   }
 
   CommonArguments common;
+  CacheArguments cache;
   std::string input, example, vertices, seed, model, residual, perturb, start, frames, steps,
       output = "base.ply", tolerance, iterations, friction, cost;
   bool list = false;
@@ -194,6 +196,7 @@ ordered_json to_json(const DrapeReport& report, const std::string& model) {
   if (!report.failure.empty()) json["failure"] = report.failure;
   json["wall_s"] = report.wall_s;
   json["peak_rss_MiB"] = report.peak_rss_MiB;
+  json.update(reused_json(report.from_cache, report.saved_s));
   json["outputs"] = outputs;
   json["frames"] = frames;
   return json;
@@ -260,7 +263,7 @@ int run_drape(Arguments& arguments) {
     return 0;
   }
   if (!arguments.cost.empty()) return run_costs(arguments);
-  DrapeRequest request{scene_of(arguments), arguments.frames, arguments.output, {}};
+  DrapeRequest request{scene_of(arguments), arguments.frames, arguments.output, {}, arguments.cache.folder()};
   const std::string model = request.scene.stretching == shell::Stretching::stvk ? "stvk" : "tension-field";
   install_interrupt_handlers();
   Progress progress(Progress::style_for_stderr(arguments.common.quiet()) == Progress::Style::bar

@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/arguments.h"
+#include "cli/cache_arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
 #include "config/frames.h"
@@ -29,7 +30,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app) {
+  explicit Arguments(CLI::App& app) : common(app), solved(app) {
     app.add_option(
            "input", input,
            described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
@@ -116,6 +117,7 @@ struct Arguments {
   }
 
   CommonArguments common;
+  CacheArguments solved;
   std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
                                     iterations = "500";
@@ -147,12 +149,13 @@ WrinkleScene scene_of(const Arguments& arguments) {
     const int vertices =
         arguments.vertices.empty() ? 0 : whole_number("--vertices", arguments.vertices, 20, 1000000);
     const int seed = arguments.seed.empty() ? 1 : whole_number("--seed", arguments.seed, 0, 2147483647);
-    return base_of(drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed)));
+    return base_of(drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed)),
+                   arguments.solved.folder());
   }
   if (!arguments.vertices.empty() || !arguments.seed.empty())
     throw Error(ExitCode::bad_input, "--vertices and --seed are for --example: a file has its own mesh");
   if (std::filesystem::path(arguments.input).extension() == ".ply") return read_base(arguments.input);
-  return base_of(load_drape(arguments.input));
+  return base_of(load_drape(arguments.input), arguments.solved.folder());
 }
 
 bool is_sequence(const Arguments& arguments) {
@@ -189,6 +192,7 @@ WrinkleRequest request_of(const Arguments& arguments) {
                    : is_sequence(arguments)  ? "field_####.ply"
                                              : "field.ply";
   request.mesh = arguments.mesh;
+  request.cache = arguments.solved.folder();
   if (request.mesh.empty() && (arguments.mesh_v1 || !arguments.levels.empty()))
     throw Error(ExitCode::bad_input, "--levels and --mesh-v1 are for geometry: name its file with --mesh");
   if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
@@ -326,7 +330,9 @@ int run_wrinkle(Arguments& arguments) {
                   field.real.iterations, field.real.reason, report.wall_s));
   if (report.max_amplitude == 0) log::notice("nothing wrinkles: no face is compressed enough");
   for (const WrinkleOutput& output : report.outputs) log::notice(fmt::format("→ {}", output.path.string()));
-  write_report(to_json(report), arguments.common.json());
+  ordered_json json = to_json(report);
+  json.update(reused_json(report.from_cache ? 1 : 0, report.saved_s));
+  write_report(json, arguments.common.json());
   return static_cast<int>(converged ? ExitCode::fine : ExitCode::check_failed);
 }
 

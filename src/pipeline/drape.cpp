@@ -16,6 +16,7 @@
 #include "config/frames.h"
 #include "io/ply.h"
 #include "io/point_cache.h"
+#include "pipeline/cached_solves.h"
 #include "shell/carry.h"
 #include "shell/fundamental_forms.h"
 
@@ -212,8 +213,10 @@ DrapeReport drape(const DrapeRequest& request) {
   Positions positions = scene.start;
   shell::Loads loads = scene.loads;
   double load = 0;
+  const pipeline::SolvedCache cache(request.cache);
+  pipeline::Reuse reuse;
   std::vector<int> cached;
-  std::vector<Positions> cache;
+  std::vector<Positions> cached_positions;
   const auto write = [&](DrapeFrame frame) {
     if (scene.measures) frame.measures = scene.measures(positions);
     if (!loads.obstacles.empty()) frame.contact = contact_of(loads.obstacles, shell.topology, positions);
@@ -246,12 +249,12 @@ DrapeReport drape(const DrapeRequest& request) {
         if (scene.loads.forces.size() > 0) loads.forces += scene.loads.forces;
       }
       load = frame.load;
-      frame.equilibrium =
-          shell::find_equilibrium(shell, conditions, loads, perturbed(scene, loads, conditions, start),
-                                  scene.newton, [&](const shell::NewtonStep& step, const Positions&) {
-                                    if (request.progress) request.progress(n, scene.frames, step);
-                                    return !interrupted();
-                                  });
+      frame.equilibrium = pipeline::cached_equilibrium(
+          cache, reuse, shell, conditions, loads, perturbed(scene, loads, conditions, start), scene.newton,
+          [&](const shell::NewtonStep& step, const Positions&) {
+            if (request.progress) request.progress(n, scene.frames, step);
+            return !interrupted();
+          });
     } catch (const Error& error) {
       if (report.frames.empty()) throw;  // nothing was made yet
       report.failure = fmt::format("frame {}: {}", n, error.what());
@@ -265,7 +268,7 @@ DrapeReport drape(const DrapeRequest& request) {
     const bool wanted = std::find(picked.begin(), picked.end(), n) != picked.end();
     if (wanted) {
       cached.push_back(n);
-      cache.push_back(positions);
+      cached_positions.push_back(positions);
     } else if (!report.interrupted) {
       if (!frame.equilibrium.converged)
         log::warn(fmt::format("frame {} on the way did not converge: {}", n, frame.equilibrium.reason));
@@ -273,7 +276,10 @@ DrapeReport drape(const DrapeRequest& request) {
     }
     write(std::move(frame));
   }
-  if (!pattern && cache.size() > 1) report.outputs.push_back(write_cache(request.output, cached, cache));
+  if (!pattern && cached_positions.size() > 1)
+    report.outputs.push_back(write_cache(request.output, cached, cached_positions));
+  report.from_cache = reuse.answers;
+  report.saved_s = reuse.saved_s;
   report.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
   report.peak_rss_MiB = peak_rss_MiB();
   return report;

@@ -37,6 +37,8 @@ struct DrapeRequest {
   std::string frames;            // a selection of the scene's frames; empty: the last alone
   std::filesystem::path output;  // base.ply, or base_####.ply: a file a frame
   DrapeProgress progress;
+  std::filesystem::path cache =
+      {};  // folder of equilibria that were found before (solved_cache.h); empty: none
 };
 
 struct DrapeReport {
@@ -48,6 +50,8 @@ struct DrapeReport {
   std::string failure;  // why a frame could not begin, with its number; empty: all could
   ExitCode failure_code = ExitCode::fine;
   double wall_s = 0, peak_rss_MiB = 0;
+  int from_cache = 0;  // equilibria that the cache had
+  double saved_s = 0;  // what they took when they were found, less looking them up
 };
 
 // Solves the frames in order from the first, each from the one before, carried to where it is held, or along

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "io/ply.h"
 #include "io/wrinkle_field.h"
+#include "pipeline/cached_solves.h"
 #include "pipeline/drape.h"
 #include "pipeline/wrinkle_files.h"
 #include "shell/carry.h"
@@ -96,14 +97,16 @@ WrinkleScene read_base(const fs::path& file) {
   return scene;
 }
 
-WrinkleScene base_of(const DrapeScene& scene) {
+WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   shell::Shell shell = shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
   WrinkleScene result{scene.name, {}, scene.material, {}};
   result.surface.positions = scene.start;
   if (!scene.solved) {
-    const shell::Equilibrium drape = shell::find_equilibrium(
-        shell, conditions, scene.loads, shell::carried(shell, conditions, scene.start), scene.newton);
+    pipeline::Reuse reuse;
+    const shell::Equilibrium drape =
+        pipeline::cached_equilibrium(pipeline::SolvedCache(cache), reuse, shell, conditions, scene.loads,
+                                     shell::carried(shell, conditions, scene.start), scene.newton);
     if (!drape.converged)
       throw Error(ExitCode::check_failed,
                   fmt::format("{}: the base surface did not converge: {}", scene.name, drape.reason));
@@ -128,9 +131,12 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request) {
   report.vertices = surface.topology.vertex_count;
   report.faces = surface.topology.faces.size();
   report.wrinkle_free_faces = static_cast<std::size_t>(std::count(free.begin(), free.end(), true));
-  report.field =
-      wrinkle::solve_field(surface.topology, forms, model_of(request), free,
-                           request.pin_held ? request.scene.held : std::vector<bool>{}, request.options);
+  pipeline::Reuse reuse;
+  report.field = pipeline::cached_field(
+      pipeline::SolvedCache(request.cache), reuse, surface.topology, forms, model_of(request), free,
+      request.pin_held ? request.scene.held : std::vector<bool>{}, request.options);
+  report.from_cache = reuse.answers > 0;
+  report.saved_s = reuse.saved_s;
   report.released_faces =
       static_cast<std::size_t>(std::count(report.field.released.begin(), report.field.released.end(), true));
   const Eigen::VectorXd& amplitude = report.field.whole.waves.amplitude;

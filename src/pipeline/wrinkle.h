@@ -23,8 +23,8 @@ struct WrinkleScene {
 // A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).
 WrinkleScene read_base(const std::filesystem::path& file);
 // The scene's last frame; drapes it first where it is not solved. Throws Error(check_failed) where that does
-// not converge.
-WrinkleScene base_of(const DrapeScene& scene);
+// not converge. `cache`: as DrapeRequest's.
+WrinkleScene base_of(const DrapeScene& scene, const std::filesystem::path& cache = {});
 
 struct WrinkleRequest {
   WrinkleScene scene;
@@ -40,6 +40,8 @@ struct WrinkleRequest {
   std::filesystem::path mesh;  // the waves as geometry: .ply, .obj or .glb; empty: none
   std::optional<int> levels;   // how often edges are halved for it; see wrinkle_mesh
   bool mesh_v1 = false;        // its waves lean with the base surface's curvature
+  std::filesystem::path
+      cache;  // folder of fields that were found before (pipeline/solved_cache.h); empty: none
 };
 
 struct WrinkleOutput {
@@ -55,6 +57,8 @@ struct WrinkleReport {
   std::vector<WrinkleOutput> outputs;
   int levels = 0;  // of the mesh
   double upsample_s = 0, wall_s = 0;
+  bool from_cache = false;
+  double saved_s = 0;  // what the field took when it was found, less looking it up
 };
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request);

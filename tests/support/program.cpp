@@ -27,6 +27,8 @@ namespace {
   redirect(0, "/dev/null", O_RDONLY);
   redirect(1, out, O_WRONLY | O_CREAT | O_TRUNC);
   redirect(2, err, O_WRONLY | O_CREAT | O_TRUNC);
+  // What an earlier run solved would hide what this one does.
+  setenv("PLISSE_CACHE", "none", 1);
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
   if (chdir(folder.c_str()) != 0) _exit(127);
   std::vector<char*> argv{const_cast<char*>(program.c_str())};

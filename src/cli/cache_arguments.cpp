@@ -1,0 +1,29 @@
+#include "cli/cache_arguments.h"
+
+#include "cli/arguments.h"
+#include "pipeline/solved_cache.h"
+
+namespace plisse::cli {
+
+CacheArguments::CacheArguments(CLI::App& app) {
+  app.add_option("--cache-dir", folder_,
+                 described("Where solved answers are kept and looked up (up to 1 GiB); 'none': nowhere; "
+                           "default: $PLISSE_CACHE, or plisse in $XDG_CACHE_HOME or ~/.cache"))
+      ->type_name("DIR|none");
+}
+
+std::filesystem::path CacheArguments::folder() const {
+  if (folder_.empty()) return pipeline::SolvedCache::user_folder();
+  return folder_ == "none" ? std::filesystem::path() : std::filesystem::path(folder_);
+}
+
+nlohmann::ordered_json reused_json(int answers, double saved_s) {
+  nlohmann::ordered_json skipped = nlohmann::ordered_json::object(), saved = nlohmann::ordered_json::object();
+  if (answers > 0) {
+    skipped["solved before"] = answers;
+    saved["solved before"] = saved_s;
+  }
+  return {{"skipped", skipped}, {"saved_s", saved}};
+}
+
+}  // namespace plisse::cli
