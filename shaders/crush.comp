@@ -9,7 +9,7 @@ layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
 layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
 layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
 layout(std430, binding = 3) writeonly buffer Phases { vec2 phases_out[]; };
-layout(std430, binding = 4) buffer Counter { uint fresh_count, all_idle; };
+layout(std430, binding = 4) buffer Counter { uint fresh_count, all_idle, any_height; };
 uniform uint vertex_count;
 uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
@@ -73,6 +73,7 @@ void main() {
 
     float W = fixed_here.x, mask = fixed_here.y, s = 1.0 - r;
     float h_in_W = 0.25 * sqrt(max(s * (1.0 + r), 0.0)) * smoothstep(0.5 * dead_zone, dead_zone, s) * mask;
+    if (h_in_W > 0.0) any_height = 1u;
     float weight = clamp((h_in_W - 0.0125) / 0.0625, 0.0, 1.0);
     vec2 wavenumber = direction / W;
 

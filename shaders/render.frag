@@ -1,16 +1,21 @@
 // Render, pixels (Loviscach 2006, 6): the height field of the three waves bends the normal (eq. 7, 8) and shifts the
 // texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; DISPLACED, with PLAIN,
 // one whose waves are geometry; SINUSOID, whose profile needs no table; FIELD, a solved wrinkle field besides; ALPHA, for
-// materials that are masked or blended (a discard, though never taken, costs 8 %); NORMAL_MAP and VERTEX_COLOURS, for those
-// that have them.
+// materials that are masked or blended (a discard, though never taken, costs 8 %); TEXTURED, NORMAL_MAP and VERTEX_COLOURS, for
+// those that have them; FADED, where every wave is shorter than two pixels.
 #include "common/constants.glsl"
 
+#if defined(TEXTURED) || defined(NORMAL_MAP)
+#define PARALLAX
+#endif
 #define INTERFACE in
 #define FLAT flat in
 #include "common/render_io.glsl"
 #include "common/shading.glsl"
 
+#ifdef TEXTURED
 layout(binding = 0) uniform sampler2D base_colour_map;
+#endif
 #ifdef NORMAL_MAP
 layout(binding = 5) uniform sampler2D normal_map;
 #endif
@@ -52,6 +57,17 @@ void add_field(inout Wrinkle result, Weights at, vec3 b) {
 }
 #endif
 
+#ifdef FADED
+// What is left of waves that are gone from the normal: the slopes that the roughness has to show for them.
+Wrinkle wrinkle_at(vec3 b) {
+#ifdef FINE_WAVES
+    vec3 lost = vec3(COARSE_SHARE * COARSE_SHARE + FINE_SHARE * FINE_SHARE * FINE_WAVES * FINE_WAVES);
+#else
+    vec3 lost = vec3(1.0);
+#endif
+    return Wrinkle(0.0, vec3(0.0), 0.0, dot(weights_at(b).w, steepness.xyz * lost));
+}
+#else
 Wrinkle wrinkle_at(vec3 b) {
     vec3 dx = dFdx(tau), dy = dFdy(tau);
     vec3 turns_per_pixel = sqrt(dx * dx + dy * dy);
@@ -83,6 +99,7 @@ Wrinkle wrinkle_at(vec3 b) {
     return result;
 }
 #endif
+#endif
 
 #ifdef NORMAL_MAP
 // Where a coordinate with gradient g grows along the surface, unit.
@@ -104,8 +121,10 @@ void main() {
 #ifdef DISPLACED
     occlusion = side > 0.0 ? relief_here.z : relief_here.w;
 #endif
+#ifdef TEXTURED
     vec2 at = uv;
     float level = texture_level(dFdx(uv) * texels, dFdy(uv) * texels);
+#endif
 #ifdef NORMAL_MAP
     float normal_level = texture_level(dFdx(normal_uv) * relief.xy, dFdy(normal_uv) * relief.xy);
     vec3 gradient = vec3(0.0);
@@ -128,10 +147,14 @@ void main() {
             float depth = clamp(0.5 - 0.5 * height / wrinkle.amplitude, 0.0, 1.0);
             occlusion = max(0.0, 1.0 - lit_from[1].w * depth * (1.0 - inversesqrt(1.0 + steep * steep)));
         }
+#ifdef PARALLAX
         float c = dot(v, ns);
         vec3 shift = (v - c * ns) * (c / (c * c + 0.1) * height * lit_from[2].w * smoothstep(0.0, 0.2, c));
         shift *= min(1.0, heights.w * inversesqrt(max(dot(shift, shift), 1e-30)));
+#endif
+#ifdef TEXTURED
         at += vec2(dot(gradient_u, shift), dot(gradient_v, shift));
+#endif
 #ifdef NORMAL_MAP
         gradient = wrinkle.gradient;
         normal_at += vec2(dot(gradient_normal_u, shift), dot(gradient_normal_v, shift));
@@ -143,7 +166,10 @@ void main() {
     m = vec3(relief.z * m.xy, max(m.z, 0.05));
     N = side * normalize(m.z * (n - gradient) + m.x * growth(gradient_normal_u, n) + m.y * growth(gradient_normal_v, n));
 #endif
-    vec4 albedo = base * textureLod(base_colour_map, at, level);
+    vec4 albedo = base;
+#ifdef TEXTURED
+    albedo *= textureLod(base_colour_map, at, level);
+#endif
 #ifdef VERTEX_COLOURS
     albedo *= tint;
 #endif

@@ -1,6 +1,7 @@
 // Where frames are drawn: colour and depth, multisampled if asked, resolved and read back.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -10,6 +11,12 @@ namespace plisse::gpu {
 struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;  // pixels, from the lower left corner
   bool empty() const { return width <= 0 || height <= 0; }
+  // The least that holds both; neither may be empty.
+  Rectangle united(const Rectangle& other) const {
+    const int left = std::min(x, other.x), low = std::min(y, other.y);
+    return {left, low, std::max(x + width, other.x + other.width) - left,
+            std::max(y + height, other.y + other.height) - low};
+  }
 };
 
 class Target {

@@ -7,8 +7,8 @@ namespace plisse::passes {
 CrushPass::CrushPass(const std::string& shader_folder) : crush_({"crush.comp"}, {}, shader_folder) {}
 
 void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set) {
-  const std::uint32_t none_fresh_and_all_idle[] = {0, always_set ? 0U : 1U};
-  surface.counter.write(none_fresh_and_all_idle, sizeof none_fresh_and_all_idle);
+  const std::uint32_t none_fresh_all_idle_all_flat[] = {0, always_set ? 0U : 1U, 0};
+  surface.counter.write(none_fresh_all_idle_all_flat, sizeof none_fresh_all_idle_all_flat);
   surface.bind_for_reading();
   surface.rest_rows.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::vec4);
   surface.biases.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec2);

@@ -63,43 +63,18 @@ void uniform(const gpu::Program& p, const char* name, const glm::dmat4& m) {
   glUniformMatrix4fv(p.uniform(name), 1, GL_FALSE, glm::value_ptr(f));
 }
 
-// Holds all that the surface draws, lines on its edges included: nothing where it is all on the other side of
-// one of the four planes through the eye, or behind it; the whole picture where only a part is behind.
-gpu::Rectangle covered(const std::vector<glm::vec4>& positions, const glm::dmat4& view_projection, int width,
-                       int height) {
-  constexpr double margin = 2;  // pixels: half a line's width, and single precision on the GPU
-  glm::dvec2 low(INFINITY), high(-INFINITY);
-  const glm::dvec2 edge = 1.0 + 2 * margin / glm::dvec2(width, height);
-  std::array<bool, 5> all_beyond{true, true, true, true, true};
-  bool part_behind = false;
-  for (const glm::vec4& x : positions) {
-    const glm::dvec4 clip = view_projection * glm::dvec4(glm::dvec3(x), 1);
-    const bool beyond[5] = {clip.x<-edge.x * clip.w, clip.x> edge.x * clip.w,
-                            clip.y<-edge.y * clip.w, clip.y> edge.y * clip.w, clip.w < 0};
-    for (std::size_t i = 0; i < 5; ++i) all_beyond[i] = all_beyond[i] && beyond[i];
-    const glm::dvec2 place = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(width, height);
-    part_behind = part_behind || !(clip.w > 0) || !std::isfinite(place.x + place.y);
-    low = glm::min(low, place);
-    high = glm::max(high, place);
-  }
-  if (std::ranges::count(all_beyond, true) > 0) return {};
-  if (part_behind) return {0, 0, width, height};
-  const glm::dvec2 size(width, height);
-  const glm::ivec2 first(glm::clamp(glm::floor(low - margin), glm::dvec2(0), size));
-  const glm::ivec2 end(glm::clamp(glm::ceil(high + margin), glm::dvec2(0), size));
-  return {first.x, first.y, end.x - first.x, end.y - first.y};
-}
-
 bool has_holes(const DrawPart& part) {
   return part.has_alpha || part.alpha_cutoff > 0;
 }
 
 // What the material of a part needs beyond the plain shader; each costs time, so only those who use it pay.
-constexpr unsigned with_alpha = 1, with_normal_map = 2, with_colours = 4;
+constexpr unsigned with_alpha = 1, with_normal_map = 2, with_colours = 4, with_texture = 8;
 unsigned features_of(const DrawPart& part) {
   return (has_holes(part) ? with_alpha : 0U) | (part.normal_texture >= 0 ? with_normal_map : 0U) |
-         (part.has_colours ? with_colours : 0U);
+         (part.has_colours ? with_colours : 0U) | (part.texture >= 0 ? with_texture : 0U);
 }
+// And what its waves do not need now.
+constexpr unsigned without_waves = 16, faded_waves = 32;
 
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
@@ -125,10 +100,7 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
       profile_texture_(profile),
       parts_(std::move(parts)),
       shader_folder_(shader_folder) {
-  gpu::Defines defines = surface_defines();
-  if (look.shadows) defines.emplace_back("SHADOWS", "1");
-  const std::vector<std::string> files{"render.vert", look.phong ? "phong.frag" : "render.frag"};
-  surface_ = make_programs(files, defines);
+  surface_ = make_programs(surface_files(), picture_defines());
   if (look.shadows || look.ground) depth_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.wireframe) lines_ = gpu::Program({"depth.vert", "flat.frag"}, {}, shader_folder);
   if (look.ground) {
@@ -151,7 +123,6 @@ RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<Dra
     glTextureParameteri(shadow_texture_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   }
   for (const auto& levels : textures) textures_.emplace_back(levels);
-  textures_.emplace_back(std::vector<TextureLevel>{{1, 1, {255, 255, 255, 255}}});
   scene_ = gpu::Buffer(sizeof(SceneBlock));
   glCreateVertexArrays(1, &vertex_array_);
   gpu::check("while preparing to render");
@@ -164,6 +135,16 @@ gpu::Defines RenderPass::surface_defines() const {
   if (look_.full_gradient) defines.emplace_back("FULL_GRADIENT", "1");
   if (look_.field) defines.emplace_back("FIELD", "1");
   return defines;
+}
+
+gpu::Defines RenderPass::picture_defines() const {
+  gpu::Defines defines = surface_defines();
+  if (look_.shadows) defines.emplace_back("SHADOWS", "1");
+  return defines;
+}
+
+std::vector<std::string> RenderPass::surface_files() const {
+  return {"render.vert", look_.phong ? "phong.frag" : "render.frag"};
 }
 
 RenderPass::~RenderPass() {
@@ -299,31 +280,47 @@ void RenderPass::draw_backdrop(const View& view) {
   glEnable(GL_DEPTH_TEST);
 }
 
+gpu::Program RenderPass::make_program(const std::vector<std::string>& files, gpu::Defines defines,
+                                      unsigned features) const {
+  if (features & with_alpha) defines.emplace_back("ALPHA", "1");
+  if (features & with_normal_map) defines.emplace_back("NORMAL_MAP", "1");
+  if (features & with_colours) defines.emplace_back("VERTEX_COLOURS", "1");
+  if (features & with_texture) defines.emplace_back("TEXTURED", "1");
+  if (features & without_waves) defines.emplace_back("PLAIN", "1");
+  if (features & faded_waves) defines.emplace_back("FADED", "1");
+  return {files, defines, shader_folder_};
+}
+
 RenderPass::Programs RenderPass::make_programs(const std::vector<std::string>& files,
                                                const gpu::Defines& defines) const {
   Programs programs;
   for (const DrawPart& part : parts_) {
     const unsigned features = features_of(part);
-    if (programs.contains(features)) continue;
-    gpu::Defines all = defines;
-    if (features & with_alpha) all.emplace_back("ALPHA", "1");
-    if (features & with_normal_map) all.emplace_back("NORMAL_MAP", "1");
-    if (features & with_colours) all.emplace_back("VERTEX_COLOURS", "1");
-    programs.emplace(features, gpu::Program(files, all, shader_folder_));
+    if (!programs.contains(features)) programs.emplace(features, make_program(files, defines, features));
   }
   return programs;
 }
 
-void RenderPass::draw_parts(const Programs& programs, bool blended) {
-  for (const auto& part : parts_) {
+void RenderPass::draw_parts(Programs& programs, bool blended, bool as_shown) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const DrawPart& part = parts_[i];
     if (part.has_alpha != blended || part.triangle_count == 0) continue;
-    const gpu::Program& program = programs.at(features_of(part));
+    if (as_shown && !shown_[i].in_view) continue;
+    unsigned features = features_of(part);
+    if (as_shown && shown_[i].waves != Detail::full) {
+      features |= shown_[i].waves == Detail::none ? without_waves : faded_waves;
+      // Compiled when it is first wanted: most runs want one of each.
+      if (!programs.contains(features))
+        programs.emplace(features, make_program(surface_files(), picture_defines(), features));
+    }
+    const gpu::Program& program = programs.at(features);
     program.use();
-    const Texture& texture =
-        part.texture >= 0 ? textures_[static_cast<std::size_t>(part.texture)] : textures_.back();
-    texture.bind(0);
+    if (part.texture >= 0) {
+      const Texture& texture = textures_[static_cast<std::size_t>(part.texture)];
+      texture.bind(0);
+      uniform(program, "texture_size", glm::vec2(texture.width(), texture.height()));
+    }
     uniform(program, "base_colour", part.base_colour);
-    uniform(program, "texture_size", glm::vec2(texture.width(), texture.height()));
     if (part.normal_texture >= 0) {
       const Texture& map = textures_[static_cast<std::size_t>(part.normal_texture)];
       map.bind(5);
@@ -331,12 +328,57 @@ void RenderPass::draw_parts(const Programs& programs, bool blended) {
     }
     uniform(program, "alpha_cutoff", part.alpha_cutoff);
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
-    uniform(program, "object", static_cast<float>(&part - parts_.data() + 1));
+    uniform(program, "object", static_cast<float>(i + 1));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
                  static_cast<GLsizei>(3 * part.triangle_count));
   }
   glDisable(GL_CULL_FACE);
+}
+
+const PartShapes& RenderPass::shapes_of(const SurfaceBuffers& surface) {
+  if (!shapes_ || !shapes_->belongs_to(surface)) {
+    std::vector<PartShapes::Range> ranges;
+    for (const DrawPart& part : parts_) ranges.push_back({part.first_triangle, part.triangle_count});
+    shapes_.emplace(surface, ranges);
+  }
+  return *shapes_;
+}
+
+gpu::Rectangle RenderPass::choose(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                                  bool software) {
+  const int width = target.width(), height = target.height();
+  shown_.assign(parts_.size(), {});
+  left_out_ = {};
+  const bool has_waves = !look_.plain && !look_.displaced;
+  const bool flat = has_waves && !look_.field && !surface.any_height();
+  gpu::Rectangle area;
+  std::optional<PartShapes::Posed> posed;
+  if (software) posed = shapes_of(surface).posed(surface, view.view_projection, width, height);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const DrawPart& part = parts_[i];
+    if (part.triangle_count == 0) continue;
+    Shown& shown = shown_[i];
+    if (posed) {
+      const gpu::Rectangle its = posed->covered(i);
+      shown.in_view = !its.empty();
+      if (!shown.in_view) {
+        ++left_out_.out_of_view;
+        continue;
+      }
+      area = area.empty() ? its : area.united(its);
+    }
+    if (part.texture < 0 && part.normal_texture < 0 && has_waves) ++left_out_.untextured;
+    if (has_waves && (flat || !part.wrinkles)) {
+      shown.waves = Detail::none;
+      ++left_out_.flat;
+    } else if (has_waves && posed && !look_.field && posed->waves_are_too_fine(i)) {
+      shown.waves = Detail::faded;
+      ++left_out_.too_fine;
+    }
+  }
+  left_out_.nothing_in_view = software && area.empty();
+  return software ? area : gpu::Rectangle{0, 0, width, height};
 }
 
 void RenderPass::clear(bool with_depth) {
@@ -347,23 +389,18 @@ void RenderPass::clear(bool with_depth) {
 }
 
 void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target) {
+  shown_.assign(parts_.size(), {});
+  left_out_ = {};
   draw(surface, view, target, {0, 0, target.width(), target.height()});
 }
 
 bool RenderPass::draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                                bool software) {
-  gpu::Rectangle area{0, 0, target.width(), target.height()};
-  const gpu::Rectangle whole = area;
-  bool in_view = true;
-  if (software) {
-    area =
-        covered(surface.positions.read<glm::vec4>(), view.view_projection, target.width(), target.height());
-    in_view = !area.empty();
-    if (in_view && target.samples() == 1) area = whole;
-  }
+  gpu::Rectangle area = choose(surface, view, target, software);
+  if (software && !area.empty() && target.samples() == 1) area = {0, 0, target.width(), target.height()};
   draw(surface, view, target, area);
   target.resolve(area);
-  return in_view;
+  return !left_out_.nothing_in_view;
 }
 
 void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
@@ -388,12 +425,12 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   if (backdrop) draw_backdrop(view);
   glEnable(GL_DEPTH_TEST);
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
-  draw_parts(surface_, false);
+  draw_parts(surface_, false, true);
   if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; })) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
     glDepthMask(GL_FALSE);
-    draw_parts(surface_, true);
+    draw_parts(surface_, true, true);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
   }
@@ -430,8 +467,8 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
     uniform(program, "aov", static_cast<int>(aov));
     uniform(program, "view_forward", view.forward);
   }
-  draw_parts(aov_, false);
-  draw_parts(aov_, true);
+  draw_parts(aov_, false, false);
+  draw_parts(aov_, true, false);
   gpu::check("while rendering an AOV");
 }
 

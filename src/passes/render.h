@@ -5,12 +5,14 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/target.h"
+#include "passes/part_shapes.h"
 #include "passes/profile.h"
 #include "passes/profile_texture.h"
 #include "passes/surface_buffers.h"
@@ -56,6 +58,16 @@ struct DrawPart {
   bool has_alpha = false;    // blended after the opaque parts
   float alpha_cutoff = 0;    // > 0: masked
   bool two_sided = true;
+  bool wrinkles = true;  // some vertex of it can have waves
+};
+
+// What a draw left out without a change to the picture, in parts.
+struct LeftOut {
+  bool nothing_in_view = false;  // found only on a software renderer, as the next two are
+  int out_of_view = 0;
+  int too_fine = 0;    // every wave is shorter than two pixels: only roughness shows them
+  int flat = 0;        // no wave anywhere
+  int untextured = 0;  // no parallax: there is nothing that it would shift
 };
 
 enum class Aov {
@@ -78,7 +90,7 @@ class RenderPass {
   RenderPass(const RenderPass&) = delete;
   RenderPass& operator=(const RenderPass&) = delete;
 
-  // Clears and draws everything into `target`, not yet resolved.
+  // Clears and draws everything into `target`, not yet resolved, and leaves nothing out.
   void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
   // The same, resolved. A software renderer pays for every multisampled pixel: there (`software`) the
   // backdrop is drawn with one sample, and with four only the rectangle that the surface covers. The picture
@@ -86,6 +98,8 @@ class RenderPass {
   // that nothing of the surface is in view: then only what is behind it, and its shadow, was drawn.
   bool draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                      bool software);
+  // By the last draw_resolved.
+  const LeftOut& left_out() const { return left_out_; }
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
 
@@ -112,15 +126,29 @@ class RenderPass {
   // A program for every set of features that the parts' materials need (render.cpp, features_of).
   using Programs = std::map<unsigned, gpu::Program>;
   gpu::Defines surface_defines() const;  // what the surface's programs are compiled for
+  gpu::Defines picture_defines() const;  // and those of pictures besides
   Programs make_programs(const std::vector<std::string>& files, const gpu::Defines& defines) const;
-  void draw_parts(const Programs& programs, bool blended);  // opaque and masked parts, or blended ones
+  gpu::Program make_program(const std::vector<std::string>& files, gpu::Defines defines,
+                            unsigned features) const;
+  std::vector<std::string> surface_files() const;
+  // Which parts are drawn now, and how much of their waves. The rectangle that they cover.
+  gpu::Rectangle choose(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                        bool software);
+  const PartShapes& shapes_of(const SurfaceBuffers& surface);
+  enum class Detail { full, faded, none };  // of waves
+  struct Shown {
+    bool in_view = true;
+    Detail waves = Detail::full;
+  };
+  // Opaque and masked parts, or blended ones; `as_shown`: those alone that `choose` has chosen, as it has.
+  void draw_parts(Programs& programs, bool blended, bool as_shown);
   unsigned depth_map(unsigned& framebuffer, int size);
 
   Look look_;
   Profile profile_;
   ProfileTexture profile_texture_;
   std::vector<DrawPart> parts_;
-  std::vector<Texture> textures_;  // the last is white, for parts without one
+  std::vector<Texture> textures_;
   std::string shader_folder_;
   Programs surface_, aov_;
   gpu::Program depth_, lines_, backdrop_, ground_cast_, ground_blur_;
@@ -130,6 +158,9 @@ class RenderPass {
   std::array<unsigned, 2> ground_textures_{};
   glm::dmat4 shadow_matrix_{1}, top_matrix_{1};
   double shadow_texel_ = 0;
+  std::vector<Shown> shown_;  // one a part
+  LeftOut left_out_;
+  std::optional<PartShapes> shapes_;
 };
 
 }  // namespace plisse::passes

@@ -166,7 +166,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
     return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));
-  counter = gpu::Buffer(2 * sizeof(std::uint32_t));
+  counter = gpu::Buffer(std::vector<std::uint32_t>{0, 0, 1});
 }
 
 SurfaceBuffers::SurfaceBuffers(const Surface& surface, const Subdivision& fine)
@@ -204,6 +204,12 @@ void SurfaceBuffers::show(const Subdivision& fine, const DisplacedSurface& displ
     vertices[v].normal_u =
         glm::vec4(glm::vec3(displaced.normals[fine.vertices[v].normal]), vertices[v].normal_u.w);
   render_vertices.write(vertices);
+}
+
+bool SurfaceBuffers::any_height() const {
+  std::uint32_t any = 0;
+  counter.read(&any, sizeof any, 2 * sizeof any);
+  return any != 0;
 }
 
 void SurfaceBuffers::carry(const std::vector<FieldTriangle>& of, const ModelUnits& units) {

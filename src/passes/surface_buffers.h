@@ -38,9 +38,10 @@ struct SurfaceBuffers {
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).
   gpu::Buffer states, waves, phases;
-  // Work space of relax: the phases of the round before; how many vertices are fresh, and whether all are
-  // idle.
+  // Work space of relax: the phases of the round before; how many vertices are fresh, whether all are idle,
+  // and, for render, whether any has a height (not known before crush has run: then it says so, too).
   gpu::Buffer phases_next, counter;
+  bool any_height() const;
 
   // For shaders/common/surface.glsl to fetch from. `phases` alone where relax has swapped them.
   void bind_for_reading() const;

@@ -64,6 +64,7 @@ FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
       pass_(look_of(scene, request), scene.profile, parts(), scene.texture_levels(), request.shader_folder),
       samples_(scene.settings.output.samples) {
   if (!aovs.empty()) aov_writer_.emplace(scene, pass_, aovs);
+  if (aovs.empty() && request.state_file.empty()) stepper_.leave_out_masked();
 }
 
 std::vector<passes::DrawPart> FrameDrawer::parts() const {
@@ -121,8 +122,14 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
     }
     const gpu::Target& target = this->target();
     timer_.begin("render");
-    if (!pass_.draw_resolved(drawn(), view, target, software_)) ++out_of_view_;
+    pass_.draw_resolved(drawn(), view, target, software_);
     timer_.end();
+    const passes::LeftOut& left_out = pass_.left_out();
+    out_of_view_ += left_out.nothing_in_view ? 1 : 0;
+    parts_out_of_view_ += left_out.nothing_in_view ? 0 : left_out.out_of_view;
+    flat_parts_ += left_out.flat;
+    fine_parts_ += left_out.too_fine;
+    untextured_parts_ += left_out.untextured;
     const double read = now_ms();
     io::Image image{output.width, output.height, target.read_rgba8()};
     if (output.transparent) straighten_alpha(image.rgba);
@@ -138,7 +145,12 @@ std::map<std::string, int> FrameDrawer::skipped() const {
   std::map<std::string, int> all{{"unchanged poses", stepper_.unchanged_steps()},
                                  {"idle relaxations", stepper_.idle_relaxations()},
                                  {"copied pictures", copied_},
-                                 {"surfaces out of view", out_of_view_}};
+                                 {"surfaces out of view", out_of_view_},
+                                 {"masked surfaces", stepper_.masked_steps()},
+                                 {"parts out of view", parts_out_of_view_},
+                                 {"parts without waves", flat_parts_},
+                                 {"parts of waves under two pixels", fine_parts_},
+                                 {"parts without a texture to shift", untextured_parts_}};
   std::erase_if(all, [](const auto& item) { return item.second == 0; });
   return all;
 }

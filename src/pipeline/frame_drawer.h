@@ -72,6 +72,8 @@ class FrameDrawer {
   int picture_step_ = 0, frame_ = 0;
   bool stays_ = false;
   int copied_ = 0, out_of_view_ = 0;
+  int parts_out_of_view_ = 0, flat_parts_ = 0, fine_parts_ = 0,
+      untextured_parts_ = 0;  // in all frames together
 };
 
 }  // namespace plisse::pipeline

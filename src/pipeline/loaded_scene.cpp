@@ -166,6 +166,17 @@ passes::Look LoadedScene::look() const {
   return look;
 }
 
+bool LoadedScene::wrinkles(const Part& part) const {
+  if (has_field_a_frame()) return true;
+  for (std::size_t t = part.first_triangle; t < std::size_t{part.first_triangle} + part.triangle_count; ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (waves.mask[surface().triangles[3 * t + i]] > 0) return true;
+      if (!waves.field.empty() && waves.field[t].amplitude[i] > 0) return true;
+    }
+  }
+  return false;
+}
+
 std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
   std::vector<passes::DrawPart> parts;
   for (const Part& part : surface().parts) {
@@ -190,6 +201,7 @@ std::vector<passes::DrawPart> LoadedScene::draw_parts() const {
       draw.has_alpha = material.alpha == io::Material::Alpha::blend;
       draw.alpha_cutoff = material.alpha == io::Material::Alpha::mask ? material.alpha_cutoff : 0.0F;
     }
+    draw.wrinkles = wrinkles(part);
     draw.has_colours = part.has_colours;
     if (part.has_colours && part.material < 0) draw.base_colour = glm::vec4(1);
     parts.push_back(draw);

@@ -64,6 +64,7 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
+  bool wrinkles(const Part& part) const;  // whether any vertex of it can have waves
   void take_bias();
   void take_field();        // the one for all frames
   void take_field_files();  // one a frame

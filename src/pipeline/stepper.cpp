@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -71,6 +72,10 @@ void Stepper::relax() {
   timer_.end();
 }
 
+void Stepper::leave_out_masked() {
+  all_masked_ = std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
+}
+
 double Stepper::last_round_moved() const {
   const auto now = surface_.phases.read<glm::vec2>(), before = surface_.phases_next.read<glm::vec2>();
   double sum = 0;
@@ -109,7 +114,10 @@ bool Stepper::advance_to(int step) {
       last_pose_ = pose;
     }
     descended_ = false;
-    if (crushes) {
+    if (crushes && all_masked_) {
+      ++masked_steps_;
+      crushed_pose_ = pose;
+    } else if (crushes) {
       crush();
       observe(Stage::crushed);
       if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);

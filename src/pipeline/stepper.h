@@ -32,6 +32,10 @@ class Stepper {
   int unchanged_steps() const { return unchanged_steps_; }
   // Steps that were crushed and had no wave to relax.
   int idle_relaxations() const { return idle_relaxations_; }
+  // From now on crush and relax are left out where the mask leaves no vertex a wave: for who looks at nothing
+  // but heights, since the compression is not found then.
+  void leave_out_masked();
+  int masked_steps() const { return masked_steps_; }
   // From now on, in place of the scene's own rounds and interval: frames then depend on when this was called.
   void set_relax(const RelaxSettings& relax) { settings_ = relax; }
   // Whether the last step ended with a round of descent; and by what (root mean square over set vertices,
@@ -71,7 +75,8 @@ class Stepper {
   int step_ = 0;
   std::optional<Pose> last_pose_, crushed_pose_;
   bool unchanged_ = false, descended_ = false;
-  int unchanged_steps_ = 0, idle_relaxations_ = 0;
+  int unchanged_steps_ = 0, idle_relaxations_ = 0, masked_steps_ = 0;
+  bool all_masked_ = false;  // and to be left out
 };
 
 }  // namespace plisse::pipeline
