@@ -10,7 +10,7 @@ namespace plisse::bench {
 const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases = hard_passes();
-    for (const auto& part : {hard_sizing(), hard_shells()})
+    for (const auto& part : {hard_scenes(), hard_sizing(), hard_shells()})
       cases.insert(cases.end(), part.begin(), part.end());
     return cases;
   }();

@@ -35,6 +35,7 @@ std::string hard_markdown(const std::vector<HardRow>& rows);
 
 // The parts of the list.
 std::vector<HardCase> hard_passes();
+std::vector<HardCase> hard_scenes();
 std::vector<HardCase> hard_sizing();
 std::vector<HardCase> hard_shells();  // drape and wrinkle
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 #include "bench/hard.h"
@@ -118,7 +119,63 @@ Verdict scaled(double scale) {
                       solution.equilibrium.reason)};
 }
 
+// The text of the error that a scene ends in once something is spoiled.
+Verdict refused(const std::function<void(DrapeScene&)>& spoil, const std::string& word) {
+  DrapeScene scene = drape_example("strip", few);
+  spoil(scene);
+  try {
+    drape_of(scene, scene.start);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    return {error.code == ExitCode::bad_input && text.find(word) != std::string::npos, text};
+  }
+  return {false, "no error"};
+}
+
+// The energy has no step where cloth begins to wrinkle: λ₂ passes −νλ₁, not 0 (eq. 32).
+Verdict onset_is_continuous() {
+  const shell::Material material{1e6, 0.3, 1e-4, 0};
+  const shell::StretchingLaw law{material, shell::Stretching::tension_field, 0};
+  const auto density = [&](double wide, double narrow) {
+    return shell::stretching_density(law, wide, narrow).value;
+  };
+  const double wide = 0.1, onset = -0.3 * wide;
+  const double below = density(wide, onset - 1e-9), above = density(wide, onset + 1e-9),
+               at_zero = density(wide, 0);
+  // Branching at 0 would make it jump by the factor 1/(1 − ν²) there; a step of 1e-9 in λ₂ moves it by less
+  // than 1e-16 of itself at a minimum, so what is left is rounding.
+  return {std::abs(below / above - 1) < 1e-12 && at_zero > above,
+          fmt::format("ψ = {:.9g} and {:.9g} J/m² on both sides", below, above)};
+}
+
 // --- wrinkle fields
+
+// A point that is none, on a base surface that somebody else made.
+Verdict nan_in_the_base() {
+  WrinkleRequest request;
+  request.scene = base_of(drape_example("stretched-sheet", few));
+  request.scene.surface.positions(1, 7) = std::nan("");
+  try {
+    wrinkle_field(request);
+  } catch (const Error& error) {
+    return {error.code == ExitCode::bad_input, error.what()};
+  }
+  return {false, "no error"};
+}
+
+// Squeezed in both directions at once: what the model is not for, but nothing to fall over.
+Verdict squeezed_both_ways() {
+  DrapeScene scene = drape_example("stretched-sheet", 200);
+  scene.solved = true;
+  scene.start = 0.98 * scene.rest;
+  WrinkleRequest request;
+  request.scene = base_of(scene);
+  request.options.solve.max_iterations = 300;
+  const WrinkleReport report = wrinkle_field(request);
+  return {
+      std::isfinite(report.max_amplitude) && std::isfinite(report.field.whole.energy),
+      fmt::format("amplitudes up to {:.3g} mm ({})", 1000 * report.max_amplitude, report.field.whole.reason)};
+}
 
 Verdict field_of(const DrapeScene& scene, bool waves_wanted) {
   WrinkleRequest request;
@@ -169,10 +226,33 @@ std::vector<HardCase> hard_shells() {
       {"drape", "a start that is turned over", either, false, inverted_start},
       {"drape", "everything slack", "no energy, converged", false, all_slack},
       {"drape", "nothing is held, gravity pulls", "an error that says so", false, unheld},
+      {"drape", "a rest triangle without area", "an error that names it", false,
+       [] {
+         return refused(
+             [](DrapeScene& scene) {
+               const shell::Face& face = scene.rest_faces[3];
+               scene.rest.col(face[1]) = scene.rest.col(face[0]);
+             },
+             "face");
+       }},
+      {"drape", "a start that is not a number", "an error", false,
+       [] { return refused([](DrapeScene& scene) { scene.start(2, 5) = std::nan(""); }, ""); }},
+      {"drape", "three faces on one edge", "an error that names it", false,
+       [] {
+         return refused(
+             [](DrapeScene& scene) {
+               scene.faces.push_back(scene.faces.front());
+               scene.rest_faces.push_back(scene.rest_faces.front());
+             },
+             "edge");
+       }},
+      {"drape", "where cloth begins to wrinkle", "an energy without a step", false, onset_is_continuous},
       {"drape", "1e-6 times the size", "the energy by hand", false, [] { return scaled(1e-6); }},
       {"drape", "1e6 times the size", "the energy by hand", false, [] { return scaled(1e6); }},
       {"wrinkle", "no compression anywhere", "no waves, no error", false, nothing_to_wrinkle},
       {"wrinkle", "a base surface that is its own rest shape", "no waves, no error", false, flat_rest},
+      {"wrinkle", "a point of the base that is not a number", "an error", false, nan_in_the_base},
+      {"wrinkle", "squeezed in both directions", "finite, converged or a reason", false, squeezed_both_ways},
       {"wrinkle", "a thickness of 1e-6 m", "waves, converged or a reason", false, thin_field},
       {"wrinkle", "a closed surface", "waves, converged or a reason", false, closed_surface}};
 }

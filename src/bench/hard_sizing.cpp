@@ -38,8 +38,8 @@ Verdict says(const std::string& text, const std::string& word) {
   return {text.find(word) != std::string::npos, text};
 }
 
-Verdict is_sound(const Panel& panel) {
-  const auto sized = mesh_panel(panel, {});
+Verdict is_sound(const Panel& panel, const SizingOptions& options = {}) {
+  const auto sized = mesh_panel(panel, options);
   double area = 0;
   for (const auto& [a, b, c] : sized->mesh.triangles) {
     const glm::dvec2 p = sized->mesh.vertices[a], q = sized->mesh.vertices[b], r = sized->mesh.vertices[c];
@@ -133,6 +133,27 @@ Verdict tiny_and_huge() {
   return {true, fmt::format("1e-6 m: {}; 1e6 m: {}", small.empty() ? "meshed" : small, large)};
 }
 
+// r + x^m with m = ln r / ln L_w, printed without units, has a pole at L_w = 1 mm and turns round at r = 1
+// mm.
+Verdict literal_transition() {
+  Panel panel = square(0.05);
+  Feature feature;
+  feature.name = "shirring";
+  feature.rule = Feature::Rule::shirring;
+  feature.ratio = 0.02;
+  feature.line = {{{0.01, 0.025}, {0.04, 0.025}}, false};
+  panel.features = {feature};
+  SizingOptions options;
+  options.form = Transition::Form::literal;
+  return is_sound(panel, options);
+}
+
+Verdict one_way_stiff() {
+  Panel panel = square(0.3);
+  panel.fabric.warp = {1e-3, 3e5};  // against {1e-6, 3e5}: edges of 26 and of 7 mm
+  return is_sound(panel);
+}
+
 }  // namespace
 
 std::vector<HardCase> hard_sizing() {
@@ -144,6 +165,10 @@ std::vector<HardCase> hard_sizing() {
           {"sizing", "a fold of 0 degrees", "a mesh that fills the outline, or an error that names it", false,
            flat_fold},
           {"sizing", "a fold outside of the panel", "an error that names it", false, outside},
+          {"sizing", "the printed transition from a line of 0.16 mm", "a mesh that fills the outline", false,
+           literal_transition},
+          {"sizing", "a fabric 1,000 times as stiff one way", "a mesh that fills the outline", false,
+           one_way_stiff},
           {"sizing", "a panel of 1e-6 m and one of 1e6 m", "a sound mesh or an error; no endless run", false,
            tiny_and_huge}};
 }

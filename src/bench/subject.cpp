@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "pipeline/stepper.h"
 
@@ -20,6 +21,11 @@ void add_bone_weights(PaletteInfluences& influences, double x) {
   const double right_weight = at - left;
   influences.entry = {left, left + 1};
   influences.weight = {static_cast<float>(1 - right_weight), static_cast<float>(right_weight)};
+  // Skin takes the heaviest first, and nothing after a weight of 0.
+  if (right_weight > 0.5) {
+    std::swap(influences.entry[0], influences.entry[1]);
+    std::swap(influences.weight[0], influences.weight[1]);
+  }
 }
 
 std::vector<glm::dmat4> bent(double squeeze, double angle, const passes::ModelUnits& units) {
