@@ -233,7 +233,7 @@ std::vector<HardCase> hard_shells() {
                const shell::Face& face = scene.rest_faces[3];
                scene.rest.col(face[1]) = scene.rest.col(face[0]);
              },
-             "face");
+             "rest triangle 3");
        }},
       {"drape", "a start that is not a number", "an error", false,
        [] { return refused([](DrapeScene& scene) { scene.start(2, 5) = std::nan(""); }, ""); }},

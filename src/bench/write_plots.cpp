@@ -59,7 +59,7 @@ std::vector<RowPlot> plots(const SuiteReport& suite) {
       return std::all_of(series.points.begin(), series.points.end(),
                          [&](const io::PlotPoint& point) { return point.label == label; });
     });
-    if (same) {
+    if (same && !label.empty()) {
       plot.title = fmt::format("{}: {}", kind.scene, label);
       for (io::PlotSeries& series : plot.series)
         for (io::PlotPoint& point : series.points) point.label.clear();

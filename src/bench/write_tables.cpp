@@ -27,6 +27,7 @@ std::string duration_text(double seconds) {
 }
 
 std::string spread_text(const Distribution& seconds) {
+  if (seconds.low == seconds.high) return "one run";
   return duration_text(seconds.low) + " – " + duration_text(seconds.high);
 }
 

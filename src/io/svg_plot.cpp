@@ -72,15 +72,19 @@ class Scale {
     low_ -= air;
     high_ += air;
     const int stride = std::max(1, static_cast<int>(std::ceil((high_ - low_) / 8)));
-    const bool few = high_ - low_ < 2;
-    for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::ceil(high_));
-         ++decade) {
-      if (decade % stride != 0) continue;
-      for (const double digit : {1.0, 2.0, 5.0}) {
-        const double tick = digit * std::pow(10.0, decade);
-        if ((digit == 1 || few) && std::log10(tick) >= low_ && std::log10(tick) <= high_)
-          ticks_.push_back(tick);
+    // As many digits in a decade as it takes for three ticks.
+    const std::vector<double> steps[] = {{1}, {1, 2, 5}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
+    for (const std::vector<double>& digits : steps) {
+      ticks_.clear();
+      for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::ceil(high_));
+           ++decade) {
+        if (decade % stride != 0) continue;
+        for (const double digit : digits) {
+          const double tick = digit * std::pow(10.0, decade);
+          if (std::log10(tick) >= low_ && std::log10(tick) <= high_) ticks_.push_back(tick);
+        }
       }
+      if (ticks_.size() >= 3) return;
     }
   }
   void linear_ticks(double low, double high) {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <new>
 
@@ -184,7 +187,18 @@ void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
 
 RenderReport render(const RenderRequest& request, const FrameCallback& on_frame) {
   const double started = now_ms();
-  pipeline::LoadedScene scene(request.scene);
+  // A process of its own reads the model while the driver starts.
+  auto loading =
+      std::async(std::launch::async, [&] { return std::make_unique<pipeline::LoadedScene>(request.scene); });
+  std::optional<gpu::Context> started_context;
+  std::exception_ptr no_context;
+  try {
+    started_context.emplace(request.device);
+  } catch (const Error&) {
+    no_context = std::current_exception();
+  }
+  const auto loaded = loading.get();  // what is wrong with the scene is told first
+  pipeline::LoadedScene& scene = *loaded;
   const auto& output = scene.settings.output;
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_frame_paths(output.path, frames);
@@ -194,7 +208,8 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
 
   const std::string body_hash = body_fingerprint(request.outside);
   if (!request.state_file.empty()) check_writable(request.state_file);
-  const gpu::Context context(request.device);
+  if (no_context) std::rethrow_exception(no_context);
+  const gpu::Context& context = *started_context;
   gpu::StageTimer timer(context.info().software);
   const Hash driver = driver_hash(context.info(), request.shader_folder);
 

@@ -10,12 +10,15 @@ import json
 import os
 import pathlib
 import platform
+import resource
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
@@ -48,20 +51,56 @@ def markdown(header, rows):
     return '\n'.join(lines)
 
 
-def provenance(command):
-    """A sentence for under a table of times: the command, the day, the machine."""
+def machine():
+    """The day and the machine, in a sentence."""
     processor = next((line.split(':', 1)[1].strip() for line in open('/proc/cpuinfo') if line.startswith('model name')),
                      platform.machine())
-    return (f'`{command}`, {time.strftime("%Y-%m-%d")}, {processor}, {os.cpu_count()} threads of hardware, '
-            f'load {os.getloadavg()[0]:.1f}.')
+    commit = subprocess.run(['git', 'describe', '--always', '--dirty'], cwd=ROOT, stdout=subprocess.PIPE, text=True).stdout.strip()
+    return (f'{time.strftime("%Y-%m-%d")}, {processor}, {os.cpu_count()} threads of hardware, load {os.getloadavg()[0]:.1f} '
+            f'when it began, commit {commit}.')
+
+
+def halved_png(data):
+    """A PNG of 8-bit RGB or RGBA at half its size, each pixel the mean of four."""
+    chunks, at = {}, 8
+    while at < len(data):
+        size, kind = int.from_bytes(data[at:at + 4], 'big'), data[at + 4:at + 8]
+        chunks[kind] = chunks.get(kind, b'') + data[at + 8:at + 8 + size]
+        at += 12 + size
+    width, height, depth, colour, _, _, interlace = struct.unpack('>IIBBBBB', chunks[b'IHDR'])
+    if depth != 8 or colour not in (2, 6) or interlace:
+        sys.exit('tools/figures: a PNG of another kind than 8-bit RGB or RGBA')
+    n = 3 if colour == 2 else 4
+    raw, stride, before, lines = zlib.decompress(chunks[b'IDAT']), n * width, bytes(n * width), []
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride if kind else 0):
+            a, b, c = (line[i - n] if i >= n else 0), before[i], (before[i - n] if i >= n else 0)
+            p = a + b - c
+            nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+        before = bytes(line)
+        lines.append(before)
+    out = bytearray()
+    for y in range(0, height - 1, 2):
+        out.append(0)
+        up, down = lines[y], lines[y + 1]
+        for x in range(0, stride - n, 2 * n):
+            for c in range(3):
+                out.append((up[x + c] + up[x + n + c] + down[x + c] + down[x + n + c] + 2) // 4)
+
+    def chunk(kind, body):
+        return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+    return (data[:8] + chunk(b'IHDR', struct.pack('>IIBBBBB', width // 2, height // 2, 8, 2, 0, 0, 0)) +
+            chunk(b'IDAT', zlib.compress(bytes(out), 9)) + chunk(b'IEND', b''))
 
 
 class Kit:
     """Runs one recipe in a scratch folder, `self.work`; used with `with`."""
 
-    def __init__(self, recipe, folder, size, pages, program):
-        self.recipe, self.folder, self.size, self.pages, self.program = recipe, folder, size, pages, program
-        self.script, self.kept = [], []
+    def __init__(self, recipe, folder, size, pages, quick, program):
+        self.recipe, self.folder, self.size, self.pages, self.quick, self.program = recipe, folder, size, pages, quick, program
+        self.script, self.kept, self.began = [], [], machine()
 
     def __enter__(self):
         self.scratch = tempfile.TemporaryDirectory(prefix='plisse_figures_')
@@ -83,13 +122,19 @@ class Kit:
         self.script.append(f"cat > {name} << 'END'\n{text.rstrip()}\nEND")
 
     def plisse(self, *arguments, codes=(0,)):
-        """Runs plisse and returns its --json report. `codes`: exit codes that are fine."""
+        """Runs plisse and returns its --json report; self.spent: (seconds by the clock, CPU seconds of all its threads and
+        children). `codes`: exit codes that are fine."""
         words = [str(a) for a in arguments]
         self.script.append('plisse ' + ' '.join(shlex.quote(word) for word in words))
         report = self.work / 'report.json'
         report.unlink(missing_ok=True)
-        done = subprocess.run([self.program, *words, '-q', '--json', report], cwd=self.work, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
+        # What an earlier run solved would be found, and its time with it.
+        environment = dict(os.environ, PLISSE_CACHE='none')
+        before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        done = subprocess.run([self.program, *words, '-q', '--json', report], cwd=self.work, env=environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.spent = (time.monotonic() - began, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
         if done.returncode not in codes:
             sys.exit(f'tools/figures {self.recipe.name}: {self.script[-1]}\nended with {done.returncode}:\n{done.stdout[-3000:]}')
         return json.loads(report.read_text()) if report.exists() else {}
@@ -117,6 +162,16 @@ class Kit:
         self.kept.append(name)
         if pathlib.Path(file).name != name:
             self.script.append(f'cp {shlex.quote(str(file))} {shlex.quote(name)}')
+
+    def keep_small(self, picture, name):
+        """A PNG at half its size, into docs/figures."""
+        (self.work / name).write_bytes(halved_png((self.work / picture).read_bytes()))
+        self.script.append(f'# {name}: {picture} at half its size')
+        self.keep(name)
+
+    def provenance(self):
+        """A sentence for under a table of times: the commands, the day, the machine."""
+        return '; '.join(f'`{line}`' for line in self.script if line.startswith(('plisse', 'tools/'))) + f': {self.began}'
 
     def table(self, name, header, rows, page=None, note=''):
         """docs/figures/NAME.csv, and as Markdown between the table's marks in `page` of docs/."""
