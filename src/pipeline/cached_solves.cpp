@@ -43,10 +43,14 @@ void members(auto& a, Is<shell::Shell> auto& value) {
   auto& [topology, rest, material, stretching, bending, residual, rest_forms] = value;
   a(topology, rest, material, stretching, bending, residual, rest_forms);
 }
+void members(auto& a, Is<shell::Conditions::Mirror> auto& value) {
+  auto& [axis, at] = value;
+  a(axis, at);
+}
 // What stands where nothing is held is not read.
 void members(auto& a, Is<shell::Conditions> auto& value) {
-  auto& [held, at] = value;
-  a(held, shell::Positions(held.select(at, 0.0)));
+  auto& [held, at, mirrors] = value;
+  a(held, shell::Positions(held.select(at, 0.0)), mirrors);
 }
 void members(auto& a, Is<shell::Sphere> auto& value) {
   auto& [centre, radius] = value;
@@ -72,8 +76,8 @@ void members(auto& a, Is<shell::Obstacle> auto& value) {
   std::visit([&](auto& body) { a(body); }, value);
 }
 void members(auto& a, Is<shell::Loads> auto& value) {
-  auto& [gravity, pressure, forces, obstacles, gap, contact_stiffness] = value;
-  a(gravity, pressure, forces, obstacles, gap, contact_stiffness);
+  auto& [gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors] = value;
+  a(gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors);
 }
 void members(auto& a, Is<shell::NewtonSettings> auto& value) {
   auto& [max_iterations, tolerance, max_seconds] = value;
@@ -84,10 +88,10 @@ void members(auto& a, Is<shell::NewtonStep> auto& value) {
   a(iteration, seconds, energy, gradient_inf, step, shift);
 }
 void members(auto& a, Is<shell::Equilibrium> auto& value) {
-  auto& [positions, energy, gradient_inf, force_scale, iterations, converged, reason, trace, assembly_s,
-         factor_s, line_search_s, analysis_s, factor_nonzeros] = value;
-  a(positions, energy, gradient_inf, force_scale, iterations, converged, reason, trace, assembly_s, factor_s,
-    line_search_s, analysis_s, factor_nonzeros);
+  auto& [positions, energy, gradient_inf, force_scale, iterations, converged, reason, anchors, trace,
+         assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros] = value;
+  a(positions, energy, gradient_inf, force_scale, iterations, converged, reason, anchors, trace, assembly_s,
+    factor_s, line_search_s, analysis_s, factor_nonzeros);
 }
 
 // --- what a field depends on, and what it is
@@ -97,16 +101,16 @@ void members(auto& a, Is<wrinkle::FaceForms> auto& value) {
   a(rest, strain, second_form);
 }
 void members(auto& a, Is<wrinkle::Model> auto& value) {
-  auto& [material, v1, v2, curvature_factor, crest_compression] = value;
-  a(material, v1, v2, curvature_factor, crest_compression);
+  auto& [material, v1, v2, curvature_factor, crest_compression, relaxed_integrability] = value;
+  a(material, v1, v2, curvature_factor, crest_compression, relaxed_integrability);
 }
 void members(auto& a, Is<wrinkle::SolveOptions> auto& value) {
   auto& [max_iterations, kkt, energy, fixed_periods] = value;
   a(max_iterations, kkt, energy, fixed_periods);
 }
 void members(auto& a, Is<wrinkle::FieldOptions> auto& value) {
-  auto& [solve, frequency, all_starts] = value;
-  a(solve, frequency, all_starts);
+  auto& [solve, frequency, local_law, all_starts] = value;
+  a(solve, frequency, local_law, all_starts);
 }
 void members(auto& a, Is<wrinkle::Waves> auto& value) {
   auto& [amplitude, phase, period] = value;
