@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
 #include "shell/carry.h"
 #include "shell/meshes.h"
 #include "shell/newton.h"
