@@ -1,0 +1,127 @@
+// The scenes of Z. Chen et al., Fine Wrinkling on Coarsely Meshed Thin Shells, 2021, from example to waves:
+// docs/wrinkle.md, "Scenes", has the numbers beside the paper's. Each takes seconds of one core.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "io/wrinkle_field.h"
+#include "system/plisse.h"
+
+namespace plisse::test {
+namespace {
+
+class WrinkleScenesSlow : public ::testing::Test {
+ protected:
+  nlohmann::json solved(std::vector<std::string> more) {
+    std::vector<std::string> arguments{"wrinkle", "-o",     (folder_ / "field.ply").string(),
+                                       "--json",  report(), "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = plisse(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(read_text(folder_ / "report.json"));
+  }
+  io::WrinkleField field() const { return io::read_wrinkle_field(folder_ / "field.ply", {}); }
+  // Mean of a quantity of places by amplitude squared.
+  static double mean(const io::WrinkleField& field, const std::function<double(const glm::dvec3&)>& of) {
+    double sum = 0, weight = 0;
+    for (std::size_t v = 0; v < field.positions.size(); ++v) {
+      const double a = field.amplitude[v] * field.amplitude[v];
+      sum += a * of(field.positions[v]);
+      weight += a;
+    }
+    return weight > 0 ? sum / weight : 0;
+  }
+
+ private:
+  std::string report() const { return (folder_ / "report.json").string(); }
+  TemporaryFolder folder_;
+};
+
+// Paper, fig. 21: 46, 46, 47, 46 on irregular meshes of 180, 344, 688, 1309 vertices; the one-dimensional
+// optimum is 44. Between 40 and 50 everywhere; meshes of 344 vertices and more within two of each other.
+// (Meshes of 180 lie below: six rows of vertices do not show how steeply amplitudes rise at the clamps.)
+TEST_F(WrinkleScenesSlow, TwistedCylinderWhateverTheMesh) {
+  double least = 1e9, most = 0;
+  for (const char* vertices : {"180", "344", "688"}) {
+    for (const char* seed : {"1", "2", "3"}) {
+      const double waves =
+          solved({"--example", "twisted-cylinder", "--vertices", vertices, "--seed", seed})["waves"];
+      EXPECT_GE(waves, 40 - 1e-9) << vertices << " " << seed;
+      EXPECT_LE(waves, 50) << vertices << " " << seed;
+      if (std::string(vertices) == "180") continue;
+      least = std::min(least, waves);
+      most = std::max(most, waves);
+    }
+  }
+  EXPECT_LE(most - least, 2 + 1e-9);
+}
+
+// The paper's own drop on regular meshes is 17 %; 20 % are asked for.
+TEST_F(WrinkleScenesSlow, TwistedCylinderOnRegularMeshes) {
+  for (const char* example : {"twisted-cylinder-rising", "twisted-cylinder-falling"})
+    EXPECT_NEAR(solved({"--example", example})["waves"].get<double>(), 44, 0.2 * 44) << example;
+}
+
+// Paper: 25; experiment (Wong and Pellegrino 2006): 19; ARCSim: 26. A way from one end to the other meets the
+// fans in the corners as well, hence three more than a level line does (docs/wrinkle.md).
+TEST_F(WrinkleScenesSlow, ShearedRectangle) {
+  const auto json = solved({"--example", "sheared-rectangle"});
+  EXPECT_GE(json["waves"].get<double>(), 14);
+  EXPECT_LE(json["waves"].get<double>(), 30);
+}
+
+// Waves run round the ball, which needs phases that do not close at its pole.
+TEST_F(WrinkleScenesSlow, SphereDrape) {
+  const auto json = solved({"--example", "sphere-drape"});
+  EXPECT_GT(json["wrinkle_free_faces"].get<int>(), 0);
+  EXPECT_TRUE(json["waves_round"].get<bool>());
+  EXPECT_EQ(json["periods"], 1);
+  EXPECT_GE(json["waves"].get<double>(), 12);
+  EXPECT_LE(json["waves"].get<double>(), 40);
+  const double energy = json["energy_J"];
+  // With integrability everywhere they cannot (fig. 5), and cost more.
+  const auto closed = solved({"--example", "sphere-drape", "--without", "relaxation"});
+  EXPECT_LT(closed["waves"].get<double>(), 12);
+  EXPECT_GT(closed["energy_J"].get<double>(), 2 * energy);
+}
+
+// Fig. 11: fine wrinkles round the outer equator, whose radius is .1 m less what the sewn rings draw in.
+TEST_F(WrinkleScenesSlow, TorusAndBalloon) {
+  const auto radius = [](const glm::dvec3& x) { return std::hypot(x.x, x.z); };
+  for (const char* example : {"torus", "disk-balloon"}) {
+    const auto json = solved({"--example", example});
+    EXPECT_TRUE(json["waves_round"].get<bool>()) << example;
+    EXPECT_GE(json["waves"].get<double>(), 30) << example;
+    const io::WrinkleField waves = field();
+    double outer = 0, middle = 0;
+    for (const auto& x : waves.positions) {
+      outer = std::max(outer, radius(x));
+      middle += radius(x) / static_cast<double>(waves.positions.size());
+    }
+    // Farther out than the surface is on the whole.
+    EXPECT_GT(mean(waves, radius), middle) << example;
+    EXPECT_GT(mean(waves, radius), 0.75 * outer) << example;
+  }
+}
+
+// Fig. 13: fine wrinkles round the boundary, none in the middle.
+TEST_F(WrinkleScenesSlow, Teabag) {
+  const auto json = solved({"--example", "teabag"});
+  EXPECT_GE(json["waves"].get<double>(), 10);
+  const io::WrinkleField waves = field();
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const auto& x : waves.positions) {
+    low = glm::min(low, x);
+    high = glm::max(high, x);
+  }
+  const double most = *std::max_element(waves.amplitude.begin(), waves.amplitude.end());
+  for (std::size_t v = 0; v < waves.positions.size(); ++v) {
+    const glm::dvec3 x = (waves.positions[v] - low) / (high - low);  // panels lie in x and z
+    if (std::abs(x.x - 0.5) < 0.1 && std::abs(x.z - 0.5) < 0.1) {
+      EXPECT_LT(waves.amplitude[v], 0.1 * most) << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plisse::test
