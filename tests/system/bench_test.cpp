@@ -37,7 +37,7 @@ TEST_F(Bench, SmokeRunsEverySuiteAndWritesTablesPlotsAndAPage) {
     EXPECT_FALSE(row["truth"].get<std::string>().empty()) << row;
   }
   EXPECT_THAT(suites, ::testing::UnorderedElementsAre("relaxation", "precision", "shading", "mesh", "method",
-                                                      "output"));
+                                                      "output", "sizing"));
 
   // A line a row, and every file that the page or the report names is there.
   const std::string csv = read_text(out / "rows.csv");
