@@ -186,6 +186,7 @@ Crossing waves_across(const DrapeScene& scene, const Positions& positions) {
     high = std::max(high, point.z);
   }
   crossing.amplitude = (high - low) / 2;
+  if (crossing.amplitude < 0.01 * scene.material.thickness) return crossing;  // it stays flat
   // Half waves: runs between a height and a depth of a tenth of the greatest.
   int runs = 0, last = 0;
   for (const OnLine& point : points) {
