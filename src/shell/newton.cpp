@@ -158,7 +158,7 @@ class Search {
     }
     // Whole steps without concave parts that get nowhere: beside an equilibrium that is not stable, from
     // which only those parts lead away.
-    regular_ = !was_exact_ && step > 0.5 && rest > 0.3 && gain < 1e-4;
+    regular_ = exact_failed_ && used_shift_ == 0 && step > 0.5 && rest > 0.3 && gain < 1e-4;
     if (regular_) exact_shift_ = 1e-7 * size_;
     exact_ = step > 0.5;
     if (exact_) {
@@ -228,9 +228,9 @@ class Search {
   // positive definite; shifted where that leads nowhere. Empty: there is none.
   VectorXd newton_direction(const VectorXd& gradient) {
     VectorXd direction;
+    exact_failed_ = false;
     if (exact_ || regular_) {
       assemble(Curvature::exact);
-      was_exact_ = true;
       direction = solved(gradient, regular_ ? exact_shift_ : 0);
       while (regular_ && direction.size() == 0 && exact_shift_ < 1e-2 * size_) {
         exact_shift_ = std::max(4 * exact_shift_, 1e-8 * size_);
@@ -239,9 +239,9 @@ class Search {
       used_shift_ = regular_ ? exact_shift_ : 0;
       if (direction.size() > 0) return direction;
       exact_ = regular_ = false;
+      exact_failed_ = true;
     }
     assemble(Curvature::positive);
-    was_exact_ = false;
     for (int attempt = 0; attempt < 40; ++attempt) {
       direction = solved(gradient, shift_);
       used_shift_ = shift_;
@@ -331,7 +331,7 @@ class Search {
   double size_ = 0;  // N/m³: the largest of the Hessian's diagonal a rest area
   // N/m³ a rest area: what is added to it without its concave parts, or as it is; the last that was.
   double shift_ = 0, exact_shift_ = 0, least_shift_ = 0, used_shift_ = 0;
-  bool exact_ = false, regular_ = false, was_exact_ = false, analysed_ = false;
+  bool exact_ = false, regular_ = false, exact_failed_ = false, analysed_ = false;
   int stalls_ = 0;
 };
 
