@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <glm/glm.hpp>
@@ -184,10 +185,10 @@ TEST(Drape, EdgeForcesAndMirrors) {
   EXPECT_NEAR(quarter, whole, 1e-6);
 }
 
-// Cloth over a ball that turns below it and moves aside: with friction it goes along.
+// Cloth on a plane that moves in itself by 5 cm: with friction it goes along, without it stays.
 TEST(Drape, FrictionTakesClothAlong) {
   const TemporaryFolder folder;
-  const auto middle = [&](const std::string& friction) {
+  const auto edge = [&](const std::string& friction) {
     write_text(folder / "carried.toml",
                "[drape]\npanel = [0.3, 0.3]\nvertices = 120\nplane = \"xz\"\nframes = 5\niterations = 400\n"
                "[material]\nyoung = 1e5\nthickness = \"1 mm\"\ndensity = 200\n[loads]\nfriction = " +
@@ -196,13 +197,11 @@ TEST(Drape, FrictionTakesClothAlong) {
     const Outcome outcome = plisse({"drape", (folder / "carried.toml").string(), "-o", base});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const io::Ply ply = io::read_ply(base);
-    double sum = 0;
     const auto& x = ply.find("vertex")->find("x")->values;
-    for (const double one : x) sum += one / static_cast<double>(x.size());
-    return sum;
+    return *std::max_element(x.begin(), x.end());
   };
-  // The way of the plane, up to the slip length of a tenth of the gap of 2 mm.
-  EXPECT_NEAR(middle("0.3") - middle("0"), 0.05, 3e-4);
+  EXPECT_NEAR(edge("0.3"), 0.35, 2e-4);  // up to the slip length, a tenth of the gap of 2 mm
+  EXPECT_NEAR(edge("0"), 0.3, 1e-3);     // it shrinks a little over what it hovers on
 }
 
 // A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top, frame by frame.
