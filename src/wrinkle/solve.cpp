@@ -71,26 +71,44 @@ constexpr std::array<Caution, 9> cautions{
 
 class Newton {
  public:
+  static constexpr int rounds = 4;
   explicit Newton(const Problem& problem) : problem_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
 
-  // −H⁻¹ g on the unknowns that move; false where the Hessian is not positive definite.
-  bool direction(const VectorXd& x, const std::vector<bool>& held, const Caution& caution, VectorXd& step) {
+  // −H⁻¹ g on the unknowns that move; false where the Hessian is not positive definite. Amplitudes that this
+  // takes beyond a bound are taken to it instead and the others solved anew with that known, a few times: a
+  // step that is bent at many bounds leads down only where it is very short, and amplitudes beside waves take
+  // turns at 0.
+  bool direction(const VectorXd& x, std::vector<bool> held, const Caution& caution, VectorXd& step) {
     VectorXd first;
     problem_.hessian(x, first, matrix_, caution.lifted);
     const double mean = matrix_.diagonal().cwiseAbs().mean();
-    hold(matrix_, held, mean > 0 ? mean : 1);
     // A phase where there is no amplitude is free, and one of every component is: neither has a gradient.
     for (Index i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) += caution.damping * mean;
-    if (!factor_(matrix_)) return false;
-    for (Index i = 0; i < first.size(); ++i) {
-      if (held[static_cast<std::size_t>(i)]) first[i] = 0;
+    const SparseMatrix<double> whole = matrix_;
+    const VectorXd& upper = problem_.upper();
+    VectorXd known = VectorXd::Zero(x.size());  // of what is held; what is close to a bound goes there
+    for (Index i = 0; i < problem_.amplitude_count(); ++i)
+      if (held[static_cast<std::size_t>(i)]) known[i] = x[i] < upper[i] / 2 ? -x[i] : upper[i] - x[i];
+    for (int round = 0; round < rounds; ++round) {
+      hold(matrix_, held, mean > 0 ? mean : 1);
+      if (!factor_(matrix_)) return false;
+      VectorXd right = -first;
+      if (round > 0) right -= whole.selfadjointView<Eigen::Lower>() * known;
+      for (Index i = 0; i < right.size(); ++i)
+        if (held[static_cast<std::size_t>(i)]) right[i] = 0;
+      step = factor_.solve(right);
+      bool more = false;
+      for (Index i = 0; i < problem_.amplitude_count(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const bool low = x[i] + step[i]<0, high = x[i] + step[i]> upper[i];
+        if (held[at] || !(low || high)) continue;
+        known[i] = low ? -x[i] : upper[i] - x[i];
+        held[at] = more = true;
+      }
+      if (!more) break;
     }
-    step = -factor_.solve(first);
-    for (Index i = 0; i < problem_.amplitude_count(); ++i) {
-      // What is close to a bound goes there.
-      if (held[static_cast<std::size_t>(i)])
-        step[i] = x[i] < problem_.upper()[i] / 2 ? -x[i] : problem_.upper()[i] - x[i];
-    }
+    for (Index i = 0; i < problem_.amplitude_count(); ++i)
+      if (held[static_cast<std::size_t>(i)]) step[i] = known[i];
     return step.allFinite();
   }
 

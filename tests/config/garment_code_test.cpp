@@ -111,9 +111,19 @@ TEST(GarmentCode, NeedsAFabricAndTomlDoesNot) {
   test::write_text(folder / "p.json", sleeve);
   const sizing::Fabric* khaki = sizing::find_fabric("khaki");
   EXPECT_EQ(load_panels(folder / "p.json", khaki).garment.seams.size(), 2U);
-  EXPECT_THAT(test::error_of([&] { load_panels(folder / "p.json"); }), HasSubstr("add --fabric"));
-  EXPECT_THAT(test::error_of([&] { load_panels(test::asset("panels.toml"), khaki); }),
-              HasSubstr("has its own fabrics"));
+  EXPECT_THAT(test::error_of([&] { load_panels(folder / "p.json"); }),
+              HasSubstr("tells no fabric; give one beside it, a name or B,E: --fabric"));
+  // A fabric that is given counts for all panels, whatever their file says.
+  const sizing::Garment own = load_panels(test::asset("panels.toml")).garment,
+                        given = load_panels(test::asset("panels.toml"), khaki).garment;
+  ASSERT_EQ(given.panels.size(), own.panels.size());
+  bool differs = false;
+  for (std::size_t i = 0; i < given.panels.size(); ++i) {
+    EXPECT_EQ(given.panels[i].fabric.weft, khaki->weft);
+    EXPECT_EQ(given.panels[i].fabric.warp, khaki->warp);
+    differs = differs || own.panels[i].fabric.weft != khaki->weft;
+  }
+  EXPECT_TRUE(differs);
 }
 
 }  // namespace

@@ -234,7 +234,8 @@ TEST(FieldFormula, DirectlyIsExactForPlaneWavesManyToATriangle) {
       const auto at = [&](double dx, double dy) {
         return 0.003 * std::cos(phase({x.x() + dx, x.y() + dy, 0}));
       };
-      EXPECT_NEAR(sample.height, at(0, 0), 1e-4 * 0.003);  // 1e-4 of the largest amplitude, as docs/paint.md promises
+      EXPECT_NEAR(sample.height, at(0, 0),
+                  1e-4 * 0.003);  // 1e-4 of the largest amplitude, as docs/paint.md promises
       // The gradient against central differences of the formula at two step sizes.
       for (const double step : {1e-5, 1e-6}) {
         const Eigen::Vector3d slope((at(step, 0) - at(-step, 0)) / (2 * step),
