@@ -60,7 +60,8 @@ void main() {
         h[i] = its.xy == vec2(0.0) ? 0.0 : its.z;
         start[i] = phase(id).x * (0.5 / pi) + dot(state(id).xy, constant(id).zw);
     }
-    n = normalize(n);
+    float n_length = length(n);
+    n = n_length > 0.0 ? n / n_length : vec3(0.0);  // halfway between normals that look away from each other there is none
     vec3 ab = p[1] - p[0], ac = p[2] - p[0], bc = p[2] - p[1], area = cross(ab, ac);
     float square = dot(area, area);
     gradient_beta = safe_divide(cross(ac, area), square);
@@ -131,6 +132,7 @@ void main() {
         vec3 normal = cross(moved[0], moved[1]);
         if (dot(normal, n) > 0.0) N = normalize(normal);
     }
+    if (!(dot(N, N) > 0.5 && dot(N, N) < 2.0)) N = vec3(0.0);  // not a number either: the other triangles decide
     places_out[item] = vec4(p[0] + from_a + sliding + height * d, height);
     normals_out[item] = vec4(N, amplitude);
     float groove = 2.0 * pi * amplitude * largest;

@@ -43,7 +43,7 @@ void main() {
     float share = 1.0 / float(max(end - begin, 1u));
     positions_out[v] = begin < end ? vec4(share * place.xyz, 1.0) : vec4(texelFetch(rest, int(v)).xyz, 1.0);
     reliefs_out[v] = begin < end ? share * vec4(place.w, normal.w, sky) : vec4(0.0, 0.0, 1.0, 1.0);
-    vec4 all = place + normal;
+    vec4 all = place + vec4(0.0, 0.0, 0.0, normal.w);
     if (any(isnan(all)) || any(isinf(all))) atomicAdd(not_finite, 1u);
 #else
     float len = length(normal.xyz);

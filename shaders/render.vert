@@ -22,6 +22,8 @@ layout(binding = 20) uniform samplerBuffer field;             // a corner each: 
 layout(binding = 20) uniform samplerBuffer reliefs;           // of a welded vertex: height, amplitude, sky in front, behind
 #endif
 
+invariant gl_Position;  // parts that share vertices may be drawn by different programs
+
 #define INTERFACE out
 #define FLAT flat out
 #include "common/render_io.glsl"

@@ -194,6 +194,8 @@ std::vector<Key> all_keys() {
            return;
          }
          const auto weight = sizing::parse_density(config::text_of(n));
+         if (config::text_of(n).find_first_not_of("0123456789.eE+- ") == std::string::npos)
+           throw Problem{fmt::format("'{}' has no unit; as a number it is kg/m³", config::text_of(n)), ""};
          if (!weight) throw Problem{fmt::format("'{}' is no weight", config::text_of(n)), ""};
          s.weight = config::within(*weight, {0, 1e3});
        }},
@@ -391,6 +393,9 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
         complaints.add(root["material"][key].node()->source().begin,
                        fmt::format("key '{}': follows from 'fabric'; take one of them out", key));
   }
+  if (!settings.pieces.empty() && settings.garment.empty())
+    complaints.add(root["drape"]["pieces"].node()->source().begin,
+                   "key 'pieces': has no effect without 'garment'");
   complaints.throw_if_any();
   return settings;
 }

@@ -115,13 +115,22 @@ std::string range_text(const Range& range) {
                                : fmt::format("{}; {}: {}", limits, range.special_value, range.special);
 }
 
+namespace {
+// Whole numbers that a double does not hold are none here.
+double double_of(const toml::node& node) {
+  const auto value = node.value<double>();
+  if (!value) throw Problem{"it is out of range", ""};
+  return *value;
+}
+}  // namespace
+
 double number_of(const toml::node& node) {
   if (!node.is_number()) throw wrong_type(node, "a number");
-  return *node.value<double>();
+  return double_of(node);
 }
 
 double length_of(const toml::node& node) {
-  if (node.is_number()) return *node.value<double>();
+  if (node.is_number()) return double_of(node);
   if (const auto text = node.value_exact<std::string>()) {
     if (const auto metres = parse_length(*text)) return *metres;
     throw Problem{fmt::format("'{}' is not a length like \"12 mm\" (units: {})", *text, length_units), ""};

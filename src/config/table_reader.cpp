@@ -48,7 +48,10 @@ void TableReader::text(const std::string& key, std::string& value) {
 }
 
 std::optional<double> TableReader::number_of(const toml::node& at, const Parse& parse, double factor) {
-  if (at.is_number()) return *at.value<double>() * factor;
+  if (at.is_number()) {
+    const auto value = at.value<double>();  // none for whole numbers that a double does not hold
+    return value ? std::optional(*value * factor) : std::nullopt;
+  }
   if (at.is_string() && parse) return parse(*at.value<std::string>());
   return std::nullopt;
 }

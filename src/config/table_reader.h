@@ -45,7 +45,8 @@ class TableReader {
   void word(const std::string& key, Value& value, const std::vector<std::pair<std::string, Value>>& words) {
     std::string given;
     text(key, given);
-    if (given.empty()) return;
+    const toml::node* found = node(key);
+    if (!found || !found->is_string()) return;
     std::vector<std::string> names;
     for (const auto& [name, meaning] : words) {
       if (name == given) {

@@ -46,6 +46,19 @@ void Buffer::bind_items(int unit, Item item) const {
 }
 
 void Buffer::bind_storage(int binding) const {
+  static const GLint64 most = [] {
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    return bytes;
+  }();
+  if (bytes_ > static_cast<std::size_t>(most)) {
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format(
+            "this is too large for this OpenGL driver: shaders write lists of at most {} bytes, and one "
+            "has {}; with --displace, fewer --levels need less",
+            most, bytes_));
+  }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }
 void Buffer::bind_uniform(int binding) const {

@@ -14,7 +14,7 @@ struct Reuse {
 };
 
 // As shell::find_equilibrium, which runs where the answer is not there yet. What did not converge, or took
-// less than a hundredth of a second, is not kept.
+// less than two thousandths of a second, is not kept.
 shell::Equilibrium cached_equilibrium(const SolvedCache& cache, Reuse& reuse, const shell::Shell& shell,
                                       const shell::Conditions& conditions, const shell::Loads& loads,
                                       const shell::Positions& start,

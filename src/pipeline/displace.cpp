@@ -142,8 +142,9 @@ Subdivision split_as_needed(const LoadedScene& scene) {
   while (fewer < most_levels && small_triangles() > most_triangles) ++fewer;
   if (fewer > 0) {
     log::warn(fmt::format(
-        "edges are halved {} times less often than the waves need, to stay below {:.0f} triangles", fewer,
-        most_triangles));
+        "edges are halved up to {} times less often than the waves need: there would be more than {:.0f} "
+        "triangles",
+        fewer, most_triangles));
   }
   return subdivide(surface,
                    [&](std::uint32_t a, std::uint32_t b) { return 1 << std::max(wanted(a, b) - fewer, 0); });

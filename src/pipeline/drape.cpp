@@ -97,7 +97,8 @@ std::vector<Positions> carried_along(const std::vector<shell::Obstacle>& before,
                                      std::vector<Positions> anchors) {
   for (std::size_t o = 0; o < anchors.size(); ++o)
     for (Eigen::Index v = 0; v < anchors[o].cols(); ++v)
-      anchors[o].col(v) = shell::carried_along(before[o], after[o], anchors[o].col(v));
+      if (anchors[o].col(v).allFinite())
+        anchors[o].col(v) = shell::carried_along(before[o], after[o], anchors[o].col(v));
   return anchors;
 }
 
@@ -187,6 +188,39 @@ void write_base(const std::filesystem::path& path, const DrapeScene& scene, cons
   io::write_ply(path, ply);
 }
 
+double load_of_frame(const DrapeScene& scene, int n) {
+  return scene.frames > 1 ? static_cast<double>(n - 1) / (scene.frames - 1) : 1;
+}
+
+shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shell, int n, DrapeState& state,
+                               const pipeline::SolvedCache& cache, pipeline::Reuse& reuse,
+                               const shell::NewtonProgress& progress) {
+  const double load = load_of_frame(scene, n);
+  const shell::Conditions conditions = scene.conditions(load);
+  shell::Loads& loads = state.loads;
+  // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
+  // moves.
+  Positions start =
+      loads.obstacles.empty() ? shell::carried(shell, conditions, state.positions) : state.positions;
+  if (scene.obstacles) {
+    start = led(scene, conditions, state.load, load, std::move(start));
+    const auto before = std::move(loads.obstacles);
+    loads.obstacles = scene.obstacles(load);
+    loads.anchors = carried_along(before, loads.obstacles, std::move(loads.anchors));
+  }
+  if (scene.growing_forces.size() > 0) {
+    loads.forces = load * scene.growing_forces;
+    if (scene.loads.forces.size() > 0) loads.forces += scene.loads.forces;
+  }
+  state.load = load;
+  shell::Equilibrium found =
+      pipeline::cached_equilibrium(cache, reuse, shell, conditions, loads,
+                                   perturbed(scene, loads, conditions, start), scene.newton, progress);
+  state.positions = found.positions;
+  loads.anchors = found.anchors;
+  return found;
+}
+
 DrapeReport drape(const DrapeRequest& request) {
   const DrapeScene& scene = request.scene;
   const auto began = Clock::now();
@@ -210,9 +244,9 @@ DrapeReport drape(const DrapeRequest& request) {
   DrapeReport report;
   report.vertices = shell.topology.vertex_count;
   report.faces = shell.topology.faces.size();
-  Positions positions = scene.start;
-  shell::Loads loads = scene.loads;
-  double load = 0;
+  DrapeState state(scene);
+  const Positions& positions = state.positions;
+  const shell::Loads& loads = state.loads;
   const pipeline::SolvedCache cache(request.cache);
   pipeline::Reuse reuse;
   std::vector<int> cached;
@@ -232,29 +266,13 @@ DrapeReport drape(const DrapeRequest& request) {
   for (int n = 1; n <= picked.back() && !report.interrupted; ++n) {
     DrapeFrame frame;
     frame.frame = n;
-    frame.load = scene.frames > 1 ? static_cast<double>(n - 1) / (scene.frames - 1) : 1;
-    const shell::Conditions conditions = scene.conditions(frame.load);
+    frame.load = load_of_frame(scene, n);
     try {
-      // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
-      // moves.
-      Positions start = loads.obstacles.empty() ? shell::carried(shell, conditions, positions) : positions;
-      if (scene.obstacles) {
-        start = led(scene, conditions, load, frame.load, std::move(start));
-        const auto before = std::move(loads.obstacles);
-        loads.obstacles = scene.obstacles(frame.load);
-        loads.anchors = carried_along(before, loads.obstacles, std::move(loads.anchors));
-      }
-      if (scene.growing_forces.size() > 0) {
-        loads.forces = frame.load * scene.growing_forces;
-        if (scene.loads.forces.size() > 0) loads.forces += scene.loads.forces;
-      }
-      load = frame.load;
-      frame.equilibrium = pipeline::cached_equilibrium(
-          cache, reuse, shell, conditions, loads, perturbed(scene, loads, conditions, start), scene.newton,
-          [&](const shell::NewtonStep& step, const Positions&) {
-            if (request.progress) request.progress(n, scene.frames, step);
-            return !interrupted();
-          });
+      frame.equilibrium = solve_frame(scene, shell, n, state, cache, reuse,
+                                      [&](const shell::NewtonStep& step, const Positions&) {
+                                        if (request.progress) request.progress(n, scene.frames, step);
+                                        return !interrupted();
+                                      });
     } catch (const Error& error) {
       if (report.frames.empty()) throw;  // nothing was made yet
       report.failure = fmt::format("frame {}: {}", n, error.what());
@@ -262,8 +280,6 @@ DrapeReport drape(const DrapeRequest& request) {
       report.converged = false;
       break;
     }
-    positions = frame.equilibrium.positions;
-    loads.anchors = std::move(frame.equilibrium.anchors);
     report.interrupted = interrupted() && !frame.equilibrium.converged;
     const bool wanted = std::find(picked.begin(), picked.end(), n) != picked.end();
     if (wanted) {

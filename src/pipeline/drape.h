@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "pipeline/cached_solves.h"
 #include "pipeline/drape_scene.h"
 
 namespace plisse {
@@ -62,6 +63,19 @@ struct DrapeReport {
 // good state written; so does a frame that cannot begin
 // (`failure`), once there is another to write. Throws Error.
 DrapeReport drape(const DrapeRequest& request);
+
+// The same step by step: what stands between one frame and the next, and the frame that comes after it. `n`
+// counts from 1, in order. Throws Error.
+struct DrapeState {
+  explicit DrapeState(const DrapeScene& scene) : positions(scene.start), loads(scene.loads) {}
+  shell::Positions positions;
+  shell::Loads loads;
+  double load = 0;
+};
+double load_of_frame(const DrapeScene& scene, int n);
+shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shell, int n, DrapeState& state,
+                               const pipeline::SolvedCache& cache, pipeline::Reuse& reuse,
+                               const shell::NewtonProgress& progress = {});
 
 // Where the rest shape is curved, bending is measured from that, by mid-edge normals. Throws Error(bad_input)
 // where rest and base faces do not belong together.

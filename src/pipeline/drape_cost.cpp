@@ -32,6 +32,10 @@ std::vector<DrapeCost> drape_costs(const std::function<DrapeScene(int vertices)>
     const shell::Conditions conditions = scene.conditions(1);
     shell::Loads loads = scene.loads;
     if (scene.obstacles) loads.obstacles = scene.obstacles(1);
+    if (scene.growing_forces.size() > 0) {
+      if (loads.forces.size() == 0) loads.forces = shell::Positions::Zero(3, scene.start.cols());
+      loads.forces += scene.growing_forces;
+    }
     const auto start = loads.obstacles.empty() ? shell::carried(shell, conditions, scene.start) : scene.start;
     DrapeCost cost;
     const double cpu = cpu_seconds();

@@ -121,7 +121,9 @@ shell::Material material_of_scene(const DrapeSettings& settings, const sizing::G
   if (garment && !told("young") && !told("thickness")) {
     const sizing::Fabric& fabric = garment->panels.front().fabric;
     for (const sizing::Panel& panel : garment->panels)
-      if (panel.fabric.weft != fabric.weft || panel.fabric.warp != fabric.warp)
+      if (panel.fabric.weft != fabric.weft || panel.fabric.warp != fabric.warp ||
+          panel.fabric.density != fabric.density || panel.fabric.thickness != fabric.thickness ||
+          panel.fabric.poisson_ratio != fabric.poisson_ratio)
         log::warn(fmt::format("{}: all of it is draped as the fabric of panel '{}'; '{}' has another",
                               settings.garment.string(), garment->panels.front().name, panel.name));
     return told_material(who, fabric, poisson, settings.density, settings.weight);
@@ -205,22 +207,31 @@ DrapeScene scene_of(const DrapeSettings& settings) {
   scene.frames = settings.frames;
   scene.loads.friction = settings.friction;
   add_forces(settings, scene);
+  if (scene.bending == shell::Bending::quadratic &&
+      std::ranges::any_of(settings.holds, [](const auto& hold) { return hold.mirror; }))
+    log::warn(fmt::format(
+        "{}: mirrors count for bending with model = \"stvk\" alone; here their edges bend as free ones",
+        settings.file.string()));
   place_obstacles(settings, scene);
   const Positions start = scene.start;
   scene.conditions = [start, all = find_held(settings, start)](double t) {
     Conditions conditions(static_cast<std::size_t>(start.cols()));
-    for (const Held& held : all) {
-      const Eigen::Isometry3d motion = motion_at(held.hold.motion, t);
-      for (const std::uint32_t v : held.vertices) {
-        Vector3d at = motion * start.col(v);
-        if (held.hold.mirror) at = motion * start.col(held.vertices.front());  // one plane to the last bit
-        for (int axis = 0; axis < 3; ++axis) {
-          if (!held.hold.axes[static_cast<std::size_t>(axis)]) continue;
-          conditions.hold(v, axis, at[axis]);
-          if (held.hold.mirror && v == held.vertices.front()) conditions.mirrors.push_back({axis, at[axis]});
+    // Mirrors last: what lies in their plane lies there to the last bit, whatever else holds it.
+    for (const bool mirrors : {false, true})
+      for (const Held& held : all) {
+        if (held.hold.mirror != mirrors) continue;
+        const Eigen::Isometry3d motion = motion_at(held.hold.motion, t);
+        for (const std::uint32_t v : held.vertices) {
+          Vector3d at = motion * start.col(v);
+          if (held.hold.mirror) at = motion * start.col(held.vertices.front());  // one plane to the last bit
+          for (int axis = 0; axis < 3; ++axis) {
+            if (!held.hold.axes[static_cast<std::size_t>(axis)]) continue;
+            conditions.hold(v, axis, at[axis]);
+            if (held.hold.mirror && v == held.vertices.front())
+              conditions.mirrors.push_back({axis, at[axis]});
+          }
         }
       }
-    }
     return conditions;
   };
   return scene;

@@ -34,8 +34,8 @@ passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
 
 }  // namespace
 
-FrameDrawer::Geometry::Geometry(const LoadedScene& scene, const RenderRequest& request)
-    : mesh(request.levels ? subdivide(scene.surface(), 1 << *request.levels) : split_as_needed(scene)),
+FrameDrawer::Geometry::Geometry(const LoadedScene& scene, Subdivision split, const RenderRequest& request)
+    : mesh(std::move(split)),
       buffers(scene.surface(), mesh),
       pass(mesh, scene.profile, scene.settings.shading.blend == Blend::smooth, scene.look().field,
            scene.settings.shading.cavity, request.shader_folder) {
@@ -52,7 +52,7 @@ void FrameDrawer::Geometry::move(const passes::SurfaceBuffers& posed, int frame)
   buffers.show(mesh, displaced);
 }
 
-FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
+FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request, std::optional<Subdivision> split,
                          const std::vector<passes::Aov>& aovs, const gpu::Context& context,
                          gpu::StageTimer& timer)
     : scene_(scene),
@@ -60,7 +60,8 @@ FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request,
       software_(context.info().software),
       timer_(timer),
       stepper_(scene, timer, request.shader_folder),
-      geometry_(request.displace ? std::make_optional<Geometry>(scene, request) : std::nullopt),
+      geometry_(request.displace ? std::make_optional<Geometry>(scene, std::move(split.value()), request)
+                                 : std::nullopt),
       pass_(look_of(scene, request), scene.profile, parts(), scene.texture_levels(), request.shader_folder),
       samples_(scene.settings.output.samples) {
   if (!aovs.empty()) aov_writer_.emplace(scene, pass_, aovs);

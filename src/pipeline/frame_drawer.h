@@ -25,8 +25,9 @@ namespace plisse::pipeline {
 class FrameDrawer {
  public:
   // Needs a current context. `aovs`: what request.aovs names.
-  FrameDrawer(LoadedScene& scene, const RenderRequest& request, const std::vector<passes::Aov>& aovs,
-              const gpu::Context& context, gpu::StageTimer& timer);
+  // `split`: of the scene's surface, where it is displaced.
+  FrameDrawer(LoadedScene& scene, const RenderRequest& request, std::optional<Subdivision> split,
+              const std::vector<passes::Aov>& aovs, const gpu::Context& context, gpu::StageTimer& timer);
 
   Stepper& stepper() { return stepper_; }
   void set_effort(const Effort& effort);
@@ -41,7 +42,7 @@ class FrameDrawer {
  private:
   // Waves as geometry, as the render pass takes it: moved on the GPU, or here where a body holds it.
   struct Geometry {
-    Geometry(const LoadedScene& scene, const RenderRequest& request);
+    Geometry(const LoadedScene& scene, Subdivision split, const RenderRequest& request);
     void move(const passes::SurfaceBuffers& posed, int frame);
     Subdivision mesh;
     passes::SurfaceBuffers buffers;

@@ -170,7 +170,8 @@ bool LoadedScene::wrinkles(const Part& part) const {
   if (has_field_a_frame()) return true;
   for (std::size_t t = part.first_triangle; t < std::size_t{part.first_triangle} + part.triangle_count; ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (waves.mask[surface().triangles[3 * t + i]] > 0) return true;
+      const std::uint32_t v = surface().render_vertices[surface().triangles[3 * t + i]].welded;
+      if (waves.mask[v] > 0) return true;
       if (!waves.field.empty() && waves.field[t].amplitude[i] > 0) return true;
     }
   }

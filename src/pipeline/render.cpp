@@ -10,6 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -21,6 +24,7 @@
 #include "io/sequence.h"
 #include "pipeline.h"
 #include "pipeline/aov.h"
+#include "pipeline/displace.h"
 #include "pipeline/frame_drawer.h"
 #include "pipeline/frame_writer.h"
 #include "pipeline/loaded_scene.h"
@@ -223,6 +227,16 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   report.wavelength_m = scene.wavelength();
   report.frames.resize(frames.size());
 
+  // The whole clip decides how a displaced surface is split, so it is a part of each frame's hash.
+  std::optional<Subdivision> split;
+  std::string split_hash;
+  if (request.displace) {
+    split =
+        request.levels ? subdivide(scene.surface(), 1 << *request.levels) : pipeline::split_as_needed(scene);
+    const auto bytes = std::as_bytes(std::span(split->triangles));
+    split_hash = Hash().add_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).hex();
+  }
+
   // Made when the first frame is drawn: a run that finds all frames done is quick.
   std::optional<pipeline::FrameDrawer> drawer;
   Governor governor(request, scene.settings);
@@ -254,7 +268,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       entry.path = frame_path(output.path, frame);
       std::string hash = governor.active() ? std::string() : scene.frame_hash(frame, driver);
       if (request.displace && !hash.empty())
-        hash = Hash().add(hash).add("displaced").add(request.levels.value_or(-1)).add(body_hash).hex();
+        hash = Hash().add(hash).add("displaced").add(split_hash).add(body_hash).hex();
       const bool exists = std::filesystem::exists(entry.path);
       if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
           pipeline::aovs_are_whole(aovs, entry.path, hash)) {
@@ -264,7 +278,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         continue;
       }
       if (!drawer) {
-        drawer.emplace(scene, request, aovs, context, timer);
+        drawer.emplace(scene, request, std::move(split), aovs, context, timer);
         if (!request.state_file.empty())
           drawer->stepper().read_state(request.state_file, driver, scene.step_of_frame(frame));
       }

@@ -73,7 +73,10 @@ void Stepper::relax() {
 }
 
 void Stepper::leave_out_masked() {
-  all_masked_ = std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
+  // Beside a carried field what crush finds still counts: the wavenumbers of waves without height are among
+  // those that the steepest is chosen from (docs/passes.md, "Cavity").
+  all_masked_ = scene_.waves.field.empty() &&
+                std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
 }
 
 double Stepper::last_round_moved() const {
@@ -217,6 +220,11 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
     buffer->write(content.data() + at, buffer->bytes());
     at += buffer->bytes();
   }
+  // What crush left beside them.
+  const auto waves = surface_.waves.read<glm::vec4>();
+  const std::uint32_t any_height =
+      std::ranges::any_of(waves, [](const glm::vec4& wave) { return wave.z > 0; });
+  surface_.counter.write(&any_height, sizeof any_height, 2 * sizeof any_height);
   step_ = header.step;
   last_pose_ = scene_.pose(step_);
   int crushed = step_;

@@ -8,7 +8,17 @@ namespace plisse::pipeline {
 namespace {
 
 // Corners, edges and insides of triangles all have points, and waves many phases.
-constexpr int levels = 2;
+constexpr int most_levels_compared = 2;
+constexpr std::size_t most_points = 4'000'000;  // 64 MB a list: drivers grant 128
+
+int levels_compared(const Surface& surface) {
+  int levels = most_levels_compared;
+  const auto points = [&] {
+    return (std::size_t{1} << levels) * ((std::size_t{1} << levels) + 1) * surface.triangle_count();
+  };
+  while (levels > 0 && points() > most_points) --levels;
+  return levels;
+}
 
 // --- tolerances, and why ---------------------------------------------------------------------------------
 // A place is a sum of a few products in single precision, for positions within one unit of the origin. Its
@@ -26,7 +36,7 @@ constexpr double fraction = 0.999;
 
 DisplacementComparison::DisplacementComparison(const LoadedScene& scene, const std::string& shader_folder)
     : scene_(scene),
-      displacement_(scene, subdivide(scene.surface(), 1 << levels)),
+      displacement_(scene, subdivide(scene.surface(), 1 << levels_compared(scene.surface()))),
       buffers_(scene.surface(), displacement_.mesh()),
       pass_(displacement_.mesh(), scene.profile, scene.settings.shading.blend == Blend::smooth,
             scene.look().field, scene.settings.shading.cavity, shader_folder),

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/log.h"
 #include "base/units.h"
 #include "io/ply.h"
@@ -103,15 +104,21 @@ WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   WrinkleScene result{scene.name, {}, scene.material, {}};
   result.surface.positions = scene.start;
   if (!scene.solved) {
+    const pipeline::SolvedCache answers(cache);
     pipeline::Reuse reuse;
-    const shell::Equilibrium drape =
-        pipeline::cached_equilibrium(pipeline::SolvedCache(cache), reuse, shell, conditions, scene.loads,
-                                     shell::carried(shell, conditions, scene.start), scene.newton);
-    if (!drape.converged)
-      throw Error(ExitCode::check_failed,
-                  fmt::format("{}: the base surface did not converge: {}", scene.name, drape.reason));
-    log::info(fmt::format("{}: base surface in {} steps", scene.name, drape.iterations));
-    result.surface.positions = drape.positions;
+    DrapeState state(scene);
+    for (int n = 1; n <= scene.frames; ++n) {  // the load's steps
+      const shell::Equilibrium drape =
+          solve_frame(scene, shell, n, state, answers, reuse,
+                      [](const shell::NewtonStep&, const shell::Positions&) { return !interrupted(); });
+      if (!drape.converged && (n == scene.frames || interrupted()))
+        throw Error(ExitCode::check_failed,
+                    fmt::format("{}: the base surface did not converge: {}", scene.name, drape.reason));
+      if (!drape.converged)
+        log::info(fmt::format("{}: frame {} on the way did not converge: {}", scene.name, n, drape.reason));
+      log::info(fmt::format("{}: frame {} of the base surface in {} steps", scene.name, n, drape.iterations));
+    }
+    result.surface.positions = state.positions;
   }
   for (Eigen::Index v = 0; v < conditions.held.cols(); ++v)
     result.held.push_back(conditions.held.col(v).all());

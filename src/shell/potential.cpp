@@ -7,6 +7,7 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shell/bending_quadratic.h"
 
@@ -293,7 +294,7 @@ void Potential::grip(const Positions& x, bool first) {
       Grip grip{v, o, x.col(v), push / force, force};
       if (old != grips_.end() && old->vertex == v && old->obstacle == o) {
         grip.anchor = old->anchor;
-      } else if (first && !loads_.anchors.empty()) {
+      } else if (first && !loads_.anchors.empty() && loads_.anchors[o].col(v).allFinite()) {
         grip.anchor = loads_.anchors[o].col(v);
       }
       grips.push_back(grip);
@@ -303,13 +304,16 @@ void Potential::grip(const Positions& x, bool first) {
 }
 
 std::vector<Positions> Potential::anchors(const Positions& x) const {
-  std::vector<Positions> anchors(loads_.obstacles.size(), x);
+  // What touches nothing sticks to nothing.
+  std::vector<Positions> anchors(loads_.obstacles.size(),
+                                 Positions::Constant(3, x.cols(), std::numeric_limits<double>::quiet_NaN()));
   const double slip = loads_.slip_length();
   for (const Grip& grip : grips_) {
     const Vector3d from = x.col(grip.vertex) - grip.anchor;
     const Vector3d way = from - grip.normal.dot(from) * grip.normal;
     const double length = way.norm();
-    anchors[grip.obstacle].col(grip.vertex) -= length > slip ? Vector3d(slip / length * way) : way;
+    anchors[grip.obstacle].col(grip.vertex) =
+        x.col(grip.vertex) - (length > slip ? Vector3d(slip / length * way) : way);
   }
   return anchors;
 }

@@ -165,7 +165,11 @@ double longest_slide(const Shell& shell, const Conditions& conditions, const Loa
       sum += to.col(v) - from.col(v);
       ++count;
     }
-    longest = std::max(longest, (pull.free * sum.array()).matrix().norm() / count);
+    // Down the pull is no slide but a fall, whose end `unsupported` knows.
+    Vector3d way = (pull.free * sum.array()).matrix() / count;
+    const Vector3d down = pull.force.normalized();
+    way -= way.dot(down) * down;
+    longest = std::max(longest, way.norm());
   }
   return longest;
 }

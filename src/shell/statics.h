@@ -54,8 +54,9 @@ struct Loads {
   double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
   double friction = 0;           // μ, Coulomb's, on all obstacles
   double slip = 0;               // m: a grip has slipped so far where friction is all it can be; 0: gap/10
-  // Where vertices stick to each obstacle that they touch at the start: 3×V an obstacle; empty: where they
-  // start. For obstacles that have moved since (carried_along).
+  // Where vertices stick to each obstacle that they touch at the start: 3×V an obstacle, not a number where
+  // they touched nothing before; empty, or so: where they start. For obstacles that have moved since
+  // (carried_along).
   std::vector<Positions> anchors;
 
   double slip_length() const { return slip > 0 ? slip : 0.1 * gap; }
@@ -82,7 +83,8 @@ std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& con
 // equilibrium: dead loads have a least energy among all turns.)
 std::string unsupported(const Shell& shell, const Conditions& conditions, const Loads& loads,
                         const Positions& positions);
-// Of parts that are so pulled at: the farthest that the mean of one has gone in those axes, m.
+// Of parts that are so pulled at: the farthest that the mean of one has gone in those axes, across the pull,
+// m.
 double longest_slide(const Shell& shell, const Conditions& conditions, const Loads& loads,
                      const Positions& from, const Positions& to);
 

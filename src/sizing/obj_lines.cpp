@@ -109,7 +109,9 @@ class Reader {
       const std::size_t last = rest.find_last_not_of(" \t\r");
       const std::string name(rest.substr(0, last == std::string_view::npos ? 0 : last + 1));
       names_.insert(name);
-      within_ = wanted_.empty() || name == wanted_;
+      (key == "o" ? object_ : group_) = name;
+      if (key == "o") group_.clear();
+      within_ = wanted_.empty() || object_ == wanted_ || group_ == wanted_;
       seen_ |= within_;
     } else if ((key == "l" || key == "f") && within_) {
       read_element(key == "l", rest);
@@ -155,6 +157,7 @@ class Reader {
   }
 
   std::string_view wanted_;
+  std::string object_, group_;  // that the lines belong to now
   bool within_, seen_ = false;
   std::size_t line_ = 0;
   std::set<std::string> names_;

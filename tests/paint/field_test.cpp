@@ -152,8 +152,8 @@ TEST(FieldFormula, GradientsOfAQuadraticPhaseAreExact) {
   }
 }
 
-// Issue 4: bias within 10 % RMS where the wavelength is at least an edge and the bend radius at least five of
-// them.
+// Promised (docs/paint.md): bias within 10 % RMS where the wavelength is at least an edge and the bend radius
+// at least five of them.
 TEST_F(Field, ConstantBentAndSpreadingWavesAsBias) {
   const double a = 0.15 * edge;
   const glm::dvec3 far(-5 * edge, -0.3, 0);  // the sheet begins five edges from it
@@ -424,7 +424,7 @@ TEST_F(Field, ARingHasAsManyWavesAsItsFieldEitherWay) {
   }
 }
 
-// Issue 4: the authors' disk as bias has the same waves by counted period. Its edges are longer than its
+// The authors' disk as bias has the same waves by counted period. Its edges are longer than its
 // waves.
 TEST_F(Field, TheAuthorsDiskHasItsWavesEitherWay) {
   if (!std::filesystem::exists(test::shared_data("tfw-disk"))) GTEST_SKIP() << "no ../shared/data/tfw-disk";

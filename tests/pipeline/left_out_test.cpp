@@ -90,6 +90,26 @@ TEST_F(LeftOut, PartsThatAreMaskedAreDrawnWithoutWaves) {
   EXPECT_FALSE(squeezed.nothing_in_view);
 }
 
+// The sleeve has seams of uv, so vertices of the file have other numbers than welded ones.
+TEST_F(LeftOut, ThePartThatIsPickedWrinklesAndNoOther) {
+  SceneSettings settings = sleeve();
+  settings.wrinkles.exclude.clear();
+  std::vector<std::string> materials;
+  {
+    const LoadedScene scene(settings);
+    ASSERT_GT(scene.surface().render_vertices.size(), scene.surface().vertex_count());
+    for (const Part& part : scene.surface().parts) materials.push_back(part.material_name);
+  }
+  ASSERT_EQ(materials.size(), 3U);
+  for (const std::string& picked : materials) {
+    settings.wrinkles.only = {picked};
+    const LoadedScene scene(settings);
+    const auto parts = scene.draw_parts();
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      EXPECT_EQ(parts[p].wrinkles, materials[p] == picked) << picked << p;
+  }
+}
+
 TEST_F(LeftOut, AtRestNoPartHasWaves) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(left_out(two_sheets(folder.path()), 1).flat, 2);

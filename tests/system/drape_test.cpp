@@ -204,6 +204,23 @@ TEST(Drape, FrictionTakesClothAlong) {
   EXPECT_NEAR(edge("0"), 0.3, 1e-3);     // it shrinks a little over what it hovers on
 }
 
+// Falling is no sliding, however far.
+TEST(Drape, ClothFallsOntoAFloorFarBelow) {
+  const TemporaryFolder folder;
+  write_text(folder / "fall.toml",
+             "[drape]\npanel = [0.1, 0.1]\nvertices = 60\nplane = \"xz\"\n[material]\nyoung = 1e5\nthickness "
+             "= \"1 mm\"\n"
+             "density = 200\n[[obstacle]]\nkind = \"plane\"\nat = [0, -1.2, 0]\n");
+  const std::string base = (folder / "base.ply").string();
+  const Outcome outcome = plisse({"drape", (folder / "fall.toml").string(), "-o", base});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const io::Ply ply = io::read_ply(base);
+  for (const double y : ply.find("vertex")->find("y")->values) {
+    EXPECT_GT(y, -1.2);
+    EXPECT_LT(y, -1.2 + 0.002);  // the gap in which the floor pushes
+  }
+}
+
 // A sheet above a sphere, two sides of which are pulled down past it: it has to stay on top, frame by frame.
 TEST(Drape, ClothIsNotCarriedThroughObstacles) {
   const TemporaryFolder folder;
