@@ -150,7 +150,7 @@ class PanelReader {
                                        std::vector<sizing::Polyline>* holes = nullptr) {
     try {
       auto lines = parse();
-      if (lines.size() != 1 && !holes) {
+      if (lines.empty() || (lines.size() != 1 && !holes)) {
         reader.complain(node, key, fmt::format("has {} subpaths; one is wanted", lines.size()));
         return std::nullopt;
       }
@@ -159,7 +159,7 @@ class PanelReader {
         line.closed |= closed;
         line = without_repeats(std::move(line));
       }
-      for (std::size_t i = 1; i < lines.size(); ++i) holes->push_back(lines[i]);
+      if (holes) holes->insert(holes->end(), lines.begin() + 1, lines.end());
       return std::move(lines[0]);
     } catch (const Error& error) {
       reader.complain(node, key, error.what());
