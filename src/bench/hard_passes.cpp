@@ -285,6 +285,12 @@ double resident_MiB() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr double most_grown = 512;  // MiB: AddressSanitizer holds back what was freed, 256 MiB of it
+#else
+constexpr double most_grown = 1;
+#endif
+
 // A clip of ten frames a thousand times over.
 Verdict long_loop() {
   Subject subject = grid_subject(49, 64, 52);
@@ -315,7 +321,7 @@ Verdict long_loop() {
   }
   // Relaxation has long ended after the first 1,000 frames; what is left is rounding. Drivers keep a little
   // for themselves, once: a leak of 100 bytes a frame would be 1 MiB.
-  const bool holds = drift < 1e-3 && grown < 1 && wrinkled > 0;
+  const bool holds = drift < 1e-3 && grown < most_grown && wrinkled > 0;
   return {holds, fmt::format("phases moved by {:.1e} rad in the last 9,000 frames, memory by {:.2f} MiB",
                              drift, grown)};
 }
