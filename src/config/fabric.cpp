@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "config/suggest.h"
 
 namespace plisse {
@@ -58,6 +59,16 @@ sizing::Fabric parse_fabric(const std::string& text) {
   fabric.weft = stiffness(parts[0], parts[1]);
   fabric.warp = parts.size() == 2 ? fabric.weft : stiffness(parts[2], parts[3]);
   return fabric;
+}
+
+sizing::FabricRange parse_fabric_range(const std::string& text) {
+  const auto parts = parts_of(text);
+  if (parts.size() != 6)
+    throw Error(ExitCode::bad_input,
+                fmt::format("'{}' has {} parts; give Bmin,Bmax,Emin,Emax,rmin,rmax", text, parts.size()));
+  const auto length = [&](std::size_t i) { return positive(parts[i], "length", length_units, parse_length); };
+  const sizing::Stiffness low = stiffness(parts[0], parts[2]), high = stiffness(parts[1], parts[3]);
+  return {low.bending, high.bending, low.modulus, high.modulus, length(4), length(5)};
 }
 
 }  // namespace plisse
