@@ -38,8 +38,9 @@ DrapeScene panel_scene(const FlatMesh& mesh) {
   return scene;
 }
 
-FlatMesh rectangle(double width, double height, const Wanted& wanted) {
-  return delaunay_mesh(rectangle_outline(width, height), {}, wanted.vertices, wanted.seed);
+// `sewn`: how much of its outline will be.
+FlatMesh rectangle(double width, double height, const Wanted& wanted, double sewn = 0) {
+  return delaunay_mesh(rectangle_outline(width, height), {}, wanted.vertices, wanted.seed, sewn);
 }
 
 // The vertex nearest to a point.
@@ -187,7 +188,7 @@ DrapeScene twisted_cylinder_of(const FlatMesh& mesh) {
 }
 
 DrapeScene twisted_cylinder(const Wanted& wanted) {
-  return twisted_cylinder_of(rectangle(2 * pi * cylinder_radius, cylinder_height, wanted));
+  return twisted_cylinder_of(rectangle(2 * pi * cylinder_radius, cylinder_height, wanted, 2 * cylinder_height));
 }
 
 DrapeScene regular_cylinder(const Wanted& wanted, Diagonals diagonals) {
@@ -288,7 +289,8 @@ DrapeScene pillow(FlatMesh mesh, const std::vector<std::uint32_t>& seam, double 
 
 DrapeScene disk_balloon(const Wanted& wanted) {
   const double radius = 0.1;
-  const FlatMesh mesh = delaunay_mesh(circle_outline(radius, 720), {}, wanted.vertices / 2, wanted.seed);
+  const FlatMesh mesh =
+      delaunay_mesh(circle_outline(radius, 720), {}, wanted.vertices / 2, wanted.seed, 2 * pi * radius);
   const auto rim =
       vertices_where(mesh.points, [&](const Vector3d& p) { return p.norm() > radius * (1 - 1e-4); });
   DrapeScene scene = pillow(mesh, rim, 0.1);
@@ -300,7 +302,7 @@ DrapeScene disk_balloon(const Wanted& wanted) {
 DrapeScene torus(const Wanted& wanted) {
   const double inner = 0.04, outer = 0.1;
   const FlatMesh mesh = delaunay_mesh(circle_outline(outer, 720), {circle_outline(inner, 360)},
-                                      wanted.vertices / 2, wanted.seed);
+                                      wanted.vertices / 2, wanted.seed, 2 * pi * (outer + inner));
   const auto rims = vertices_where(mesh.points, [&](const Vector3d& p) {
     return p.norm() > outer * (1 - 1e-4) || p.norm() < inner * (1 + 1e-4);
   });
@@ -315,7 +317,7 @@ DrapeScene torus(const Wanted& wanted) {
 
 DrapeScene teabag(const Wanted& wanted) {
   const double width = 1.4, height = 0.74;
-  FlatMesh mesh = rectangle(width, height, {wanted.vertices / 2, wanted.seed});
+  FlatMesh mesh = rectangle(width, height, {wanted.vertices / 2, wanted.seed}, 2 * (width + height));
   mesh.points.colwise() -= Vector3d(width / 2, height / 2, 0);
   const auto rim = vertices_where(mesh.points, [&](const Vector3d& p) {
     return std::abs(p.x()) > width / 2 * (1 - 1e-5) || std::abs(p.y()) > height / 2 * (1 - 1e-5);

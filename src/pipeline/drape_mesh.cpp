@@ -1,6 +1,7 @@
 #include "pipeline/drape_mesh.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -44,10 +45,10 @@ double edges_per_length(double area, double around, int vertices) {
 }
 
 FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing::Polyline>& holes,
-                       int vertices, std::uint32_t seed) {
+                       int vertices, std::uint32_t seed, double sewn) {
   double around = outline.length();
   for (const auto& hole : holes) around += hole.length();
-  double per_edge = edges_per_length(area_of(outline, holes), around, vertices);
+  double per_edge = edges_per_length(area_of(outline, holes), around - sewn, vertices);
 
   sizing::Panel panel;
   panel.fabric = *sizing::find_fabric(sizing::fabrics().front().name);
@@ -55,18 +56,23 @@ FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing
   sizing::SizingOptions options;
   options.seed = seed;
   const double edge = sizing::fabric_resolution(options.law, panel.fabric.weft);
-  FlatMesh mesh;
-  for (int round = 0; round < 3; ++round) {
+  FlatMesh best;
+  double least = std::numeric_limits<double>::max();
+  for (int round = 0; round < 5 && least > 0.005; ++round) {
     const double scale = edge * per_edge;
     panel.outline = scaled(outline, scale);
     panel.holes.clear();
     for (const auto& hole : holes) panel.holes.push_back(scaled(hole, scale));
-    mesh = flat(sizing::mesh_panel(panel, options)->mesh, scale);
-    const double share = static_cast<double>(vertices) / static_cast<double>(mesh.points.cols());
-    if (std::abs(share - 1) < 0.02) break;
+    FlatMesh mesh = flat(sizing::mesh_panel(panel, options)->mesh, scale);
+    const double share = vertices / (static_cast<double>(mesh.points.cols()) - sewn * per_edge / 2);
+    // Sides are divided into whole edges, so that small meshes can miss by a row.
+    if (std::abs(share - 1) < least) {
+      least = std::abs(share - 1);
+      best = std::move(mesh);
+    }
     per_edge *= std::sqrt(share);
   }
-  return mesh;
+  return best;
 }
 
 FlatMesh fabric_mesh(const sizing::Polyline& outline, const sizing::Fabric& fabric, std::uint32_t seed) {

@@ -23,10 +23,11 @@ double edges_per_length(double area, double around, int vertices);
 
 // An irregular mesh of a panel with about `vertices` vertices (within some percent; the panel is scaled so
 // that the mesher of src/sizing finds its fabric's own edge length in it). Evenly divided along straight
-// sides, so that opposite sides of a rectangle match. Throws Error(bad_input) for panels that cannot be
-// meshed.
+// sides, so that opposite sides of a rectangle match. `sewn` metres of its outline will be sewn to as many of
+// this or another panel's: their vertices count as half ones, so that `vertices` is what the base mesh has.
+// Throws Error(bad_input) for panels that cannot be meshed.
 FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing::Polyline>& holes,
-                       int vertices, std::uint32_t seed);
+                       int vertices, std::uint32_t seed, double sewn = 0);
 
 // As fine as a fabric asks for, its warp along y. Throws Error(bad_input) as sizing::mesh_panel.
 FlatMesh fabric_mesh(const sizing::Polyline& outline, const sizing::Fabric& fabric, std::uint32_t seed);
