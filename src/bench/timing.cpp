@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
+
+#include "base/cpu_time.h"
 
 namespace plisse::bench {
 
 Sample now() {
-  timespec cpu{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
   const auto wall = std::chrono::steady_clock::now().time_since_epoch();
-  return {std::chrono::duration<double>(wall).count(),
-          static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec)};
+  return {std::chrono::duration<double>(wall).count(), cpu_seconds()};
 }
 
 Sample operator-(const Sample& end, const Sample& begin) {

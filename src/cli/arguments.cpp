@@ -46,6 +46,16 @@ int whole_number(const std::string& option, const std::string& text, int low, in
   return value;
 }
 
+std::vector<int> whole_numbers(const std::string& option, const std::string& text, int low, int high) {
+  std::vector<int> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    numbers.push_back(whole_number(option, text.substr(at, comma - at), low, high));
+    at = comma + 1;
+  }
+  return numbers;
+}
+
 CommonArguments::CommonArguments(CLI::App& app) {
   app.add_option("--threads", threads_, "Threads of the CPU to use at most")->type_name("N");
   app.add_flag("-q,--quiet", quiet_, "Errors only");

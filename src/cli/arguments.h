@@ -24,6 +24,8 @@ inline std::string described(std::string_view text) {
 // A number above 0; a whole number in low … high. Throw Error(bad_input) that names the option.
 double positive_number(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);
+// Several whole numbers, separated by commas.
+std::vector<int> whole_numbers(const std::string& option, const std::string& text, int low, int high);
 
 // --threads, -q, -v, --json.
 class CommonArguments {

@@ -203,12 +203,7 @@ ordered_json to_json(const DrapeReport& report, const std::string& model) {
 }
 
 int run_costs(Arguments arguments) {
-  std::vector<int> sizes;
-  for (std::size_t at = 0; at <= arguments.cost.size();) {
-    const std::size_t comma = std::min(arguments.cost.find(',', at), arguments.cost.size());
-    sizes.push_back(whole_number("--cost", arguments.cost.substr(at, comma - at), 20, 1000000));
-    at = comma + 1;
-  }
+  const std::vector<int> sizes = whole_numbers("--cost", arguments.cost, 20, 1000000);
   const std::filesystem::path output = arguments.output;
   if (arguments.example.empty() || !arguments.vertices.empty() || output.extension() != ".svg")
     throw Error(ExitCode::bad_input,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -22,6 +23,7 @@
 #include "pipeline.h"
 #include "pipeline/drape_examples.h"
 #include "pipeline/drape_setup.h"
+#include "pipeline/wrinkle_cost.h"
 #include "pipeline/wrinkle_sequence.h"
 
 namespace plisse::cli {
@@ -107,6 +109,10 @@ struct Arguments {
         "--crest-compression", crest_compression,
         described("Let compression along the crests count where there is some both ways, as the paper's "
                   "energy has it; without, it costs nothing"));
+    app.add_option("--cost", cost,
+                   described("Solve an example at each of these sizes, separated by commas, three times, and "
+                             "plot what it costs: -o cost.svg"))
+        ->type_name("N,N,…");
     app.add_option("--iterations", iterations, "At most so many Newton steps (default 500)")->type_name("N");
     app.add_option(
            "--evaluate", evaluate,
@@ -120,7 +126,7 @@ struct Arguments {
   CacheArguments solved;
   std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
-                                    iterations = "500";
+                                    iterations = "500", cost;
   std::vector<std::string> without, evaluate;
   bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false, local_law = false;
 };
@@ -302,9 +308,54 @@ int run_sequence(const Arguments& arguments, WrinkleRequest each) {
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
+int run_costs(Arguments arguments, const WrinkleRequest& request) {
+  const std::vector<int> sizes = whole_numbers("--cost", arguments.cost, 20, 1000000);
+  if (arguments.example.empty() || !arguments.input.empty() || !arguments.vertices.empty() ||
+      !arguments.frames.empty() || !arguments.cache.empty() || !arguments.mesh.empty() ||
+      !arguments.evaluate.empty() || request.output.extension() != ".svg")
+    throw Error(ExitCode::bad_input,
+                "--cost solves an --example at sizes of its own, and writes -o FILE.svg alone");
+  check_writable(request.output);
+  install_interrupt_handlers();
+  const auto costs = wrinkle_costs(
+      request,
+      [&](int vertices) {
+        arguments.vertices = std::to_string(vertices);
+        return scene_of(arguments);
+      },
+      sizes,
+      [](const WrinkleCost& cost) {
+        log::notice(fmt::format("{} vertices: {:.4g} waves, {} steps, {:.3g} s ({:.3g} s of CPU time){}",
+                                cost.vertices, cost.waves, cost.iterations, cost.wall_s, cost.cpu_s,
+                                cost.converged ? "" : ", NOT CONVERGED"));
+      });
+  if (interrupted()) return 128 + signal_number();
+  plot_costs(request.output, arguments.example, costs);
+  log::notice(fmt::format("→ {}", request.output.string()));
+  ordered_json json = {{"example", arguments.example}, {"costs", ordered_json::array()}};
+  bool converged = true;
+  for (const WrinkleCost& cost : costs) {
+    converged = converged && cost.converged;
+    json["costs"].push_back({{"vertices", cost.vertices},
+                             {"waves", cost.waves},
+                             {"max_amplitude_m", cost.max_amplitude},
+                             {"energy_J", cost.energy},
+                             {"iterations", cost.iterations},
+                             {"converged", cost.converged},
+                             {"solve_s", cost.solve_s},
+                             {"phase_s", cost.phase_s},
+                             {"wall_s", cost.wall_s},
+                             {"cpu_s", cost.cpu_s}});
+  }
+  json["outputs"] = {{{"path", request.output.string()}, {"kind", "plot"}}};
+  write_report(json, arguments.common.json());
+  return static_cast<int>(converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
 int run_wrinkle(Arguments& arguments) {
   arguments.common.apply();
   WrinkleRequest request = request_of(arguments);
+  if (!arguments.cost.empty()) return run_costs(arguments, request);
   if (is_sequence(arguments)) return run_sequence(arguments, std::move(request));
   if (!arguments.frames.empty())
     throw Error(ExitCode::bad_input, "--frames is for sequences: base_####.ply, or base.ply with --cache");

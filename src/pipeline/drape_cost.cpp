@@ -3,24 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <ctime>
 
 #include "base/atomic_file.h"
+#include "base/cpu_time.h"
 #include "base/interrupt.h"
 #include "io/svg_plot.h"
 #include "pipeline/drape.h"
 #include "shell/carry.h"
 
 namespace plisse {
-namespace {
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 std::vector<DrapeCost> drape_costs(const std::function<DrapeScene(int vertices)>& made,
                                    const std::vector<int>& sizes,

@@ -128,6 +128,8 @@ TEST_F(ObjTest, SequenceErrorsNameTheFile) {
   write("d_1.obj", square(1));
   EXPECT_THAT(import_error(folder_), AllOf(HasSubstr("c_##.obj"), HasSubstr("d_#.obj")));
   EXPECT_THAT(import_error(folder_ / "x_##.obj"), HasSubstr("no file fits"));
+  write("x_01.glb", "glTF");
+  EXPECT_THAT(import_error(folder_ / "x_##.glb"), HasSubstr("a sequence is of OBJ or PLY files"));
   fs::create_directory(folder_ / "empty");
   EXPECT_THAT(import_error(folder_ / "empty"), HasSubstr("without numbered OBJ or PLY files"));
 }

@@ -59,17 +59,54 @@ TEST_F(Wrinkle, ScenesAreDrapedAsDrapeDoes) {
 
 // Paper: 46, 46, 47 waves on irregular meshes of 180, 344 and 688 vertices, over 180 without v₁; an
 // independent one-dimensional optimum: 44.
-TEST_F(Wrinkle, TwistedCylinderOnThreeMeshes) {
-  for (const char* vertices : {"344", "688", "1309"}) {
-    const Outcome outcome = plisse({"wrinkle", "--example", "twisted-cylinder", "--vertices", vertices, "-o",
-                                    file("field.ply"), "--json", file("report.json"), "-q"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NEAR(report()["waves"].get<double>(), 44, 2) << vertices;
-  }
+// The paper's five sizes of mesh, of which it has 46, 46, 47, 46, 45 waves; by one-dimensional
+// calculation 44.
+TEST_F(Wrinkle, TwistedCylinderOnFiveMeshesOfThreeSeeds) {
+  for (const char* vertices : {"180", "344", "688", "1309", "2543"})
+    for (const char* seed : {"1", "2", "3"}) {
+      // Fine ones differ by nothing, and take longest.
+      if (std::string(vertices).size() > 3 && std::string(seed) != "1") continue;
+      const Outcome outcome =
+          plisse({"wrinkle", "--example", "twisted-cylinder", "--vertices", vertices, "--seed", seed, "-o",
+                  file("field.ply"), "--json", file("report.json"), "-q"});
+      ASSERT_EQ(outcome.code, 0) << outcome.err;
+      // The number asked for: sides hold whole edges, so that the coarsest can miss by a row.
+      EXPECT_NEAR(report()["vertices"].get<double>(), std::stod(vertices),
+                  std::max(4.0, .015 * std::stod(vertices)));
+      // 41 to 45 but for one of the coarsest, which has 40 (docs/wrinkle.md says why).
+      EXPECT_NEAR(std::round(report()["waves"].get<double>()), 43, std::string(vertices) == "180" ? 3 : 2)
+          << vertices << ", seed " << seed;
+    }
   const Outcome without = plisse({"wrinkle", "--example", "twisted-cylinder", "--without", "v1", "-o",
                                   file("field.ply"), "--json", file("report.json"), "-q"});
   ASSERT_EQ(without.code, 0) << without.err;
   EXPECT_GT(report()["waves"].get<double>(), 150);
+}
+
+TEST_F(Wrinkle, CostsArePlotted) {
+  const Outcome outcome = plisse({"wrinkle", "--example", "twisted-cylinder", "--cost", "100,250", "-o",
+                                  file("cost.svg"), "--json", file("report.json")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(read_text(file("cost.svg")), AllOf(HasSubstr("<svg"), HasSubstr("solver"), HasSubstr("waves")));
+  const auto json = report();
+  ASSERT_EQ(json["costs"].size(), 2U);
+  for (const auto& cost : json["costs"]) {
+    EXPECT_TRUE(cost["converged"].get<bool>());
+    EXPECT_GT(cost["solve_s"].get<double>(), 0);
+    // Each is a median by itself, so that parts of one run may stand beside the whole of another.
+    EXPECT_LE(cost["solve_s"].get<double>() + cost["phase_s"].get<double>(),
+              3 * cost["wall_s"].get<double>());
+  }
+  for (const std::vector<std::string>& odd : {std::vector<std::string>{"--cost", "100,"},
+                                              {"--cost", "100", "--vertices", "100"},
+                                              {"--cost", "100", "--mesh", file("waves.glb")}}) {
+    std::vector<std::string> words{"wrinkle", "--example", "twisted-cylinder", "-o", file("odd.svg")};
+    words.insert(words.end(), odd.begin(), odd.end());
+    const Outcome refused = plisse(words);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--cost"));
+    EXPECT_FALSE(std::filesystem::exists(file("odd.svg")));
+  }
 }
 
 TEST_F(Wrinkle, TheAuthorsSetUpAndTexts) {

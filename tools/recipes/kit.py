@@ -60,8 +60,8 @@ def machine():
             f'when it began, commit {commit}.')
 
 
-def halved_png(data):
-    """A PNG of 8-bit RGB or RGBA at half its size, each pixel the mean of four."""
+def read_png(data):
+    """The rows of a PNG of 8-bit RGB or RGBA, three bytes a pixel."""
     chunks, at = {}, 8
     while at < len(data):
         size, kind = int.from_bytes(data[at:at + 4], 'big'), data[at + 4:at + 8]
@@ -71,7 +71,7 @@ def halved_png(data):
     if depth != 8 or colour not in (2, 6) or interlace:
         sys.exit('tools/figures: a PNG of another kind than 8-bit RGB or RGBA')
     n = 3 if colour == 2 else 4
-    raw, stride, before, lines = zlib.decompress(chunks[b'IDAT']), n * width, bytes(n * width), []
+    raw, stride, before, rows = zlib.decompress(chunks[b'IDAT']), n * width, bytes(n * width), []
     for y in range(height):
         kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
         for i in range(stride if kind else 0):
@@ -80,19 +80,28 @@ def halved_png(data):
             nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
             line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
         before = bytes(line)
-        lines.append(before)
-    out = bytearray()
-    for y in range(0, height - 1, 2):
-        out.append(0)
-        up, down = lines[y], lines[y + 1]
-        for x in range(0, stride - n, 2 * n):
-            for c in range(3):
-                out.append((up[x + c] + up[x + n + c] + down[x + c] + down[x + n + c] + 2) // 4)
+        rows.append(before if n == 3 else b''.join(before[i:i + 3] for i in range(0, stride, 4)))
+    return rows
 
+
+def write_png(rows):
+    """The PNG of rows of RGB."""
     def chunk(kind, body):
         return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
-    return (data[:8] + chunk(b'IHDR', struct.pack('>IIBBBBB', width // 2, height // 2, 8, 2, 0, 0, 0)) +
-            chunk(b'IDAT', zlib.compress(bytes(out), 9)) + chunk(b'IEND', b''))
+    return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)) +
+            chunk(b'IDAT', zlib.compress(b''.join(b'\0' + bytes(row) for row in rows), 9)) + chunk(b'IEND', b''))
+
+
+def halved(rows):
+    """At half the size, each pixel the mean of four."""
+    out = []
+    for up, down in zip(rows[::2], rows[1::2]):
+        line = bytearray()
+        for x in range(0, len(up) - 5, 6):
+            for c in range(x, x + 3):
+                line.append((up[c] + up[c + 3] + down[c] + down[c + 3] + 2) // 4)
+        out.append(bytes(line))
+    return out
 
 
 class Kit:
@@ -165,8 +174,18 @@ class Kit:
 
     def keep_small(self, picture, name):
         """A PNG at half its size, into docs/figures."""
-        (self.work / name).write_bytes(halved_png((self.work / picture).read_bytes()))
+        (self.work / name).write_bytes(write_png(halved(read_png((self.work / picture).read_bytes()))))
         self.script.append(f'# {name}: {picture} at half its size')
+        self.keep(name)
+
+    def keep_sheet(self, lines, name):
+        """Pictures of one size at half of it, lines of them side by side, into docs/figures."""
+        rows = []
+        for line in lines:
+            pictures = [halved(read_png((self.work / picture).read_bytes())) for picture in line]
+            rows += [b''.join(parts) for parts in zip(*pictures)]
+        (self.work / name).write_bytes(write_png(rows))
+        self.script.append(f'# {name}: ' + '; '.join(' '.join(str(picture) for picture in line) for line in lines) + ', side by side at half their size')
         self.keep(name)
 
     def provenance(self):

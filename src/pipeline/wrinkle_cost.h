@@ -1,0 +1,34 @@
+// What wrinkle fields cost: an example's base surface at several sizes, each solved.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/wrinkle.h"
+
+namespace plisse {
+
+struct WrinkleCost {
+  std::size_t vertices = 0;
+  int iterations = 0;  // of the solve with real periods
+  bool converged = false;
+  double waves = 0, max_amplitude = 0, energy = 0;  // metres, J
+  // Wall-clock seconds: the solver, phases and their whole periods, all of it (with curvature, without
+  // draping and files); CPU seconds of all cores for all of it. Each the median of three runs.
+  double solve_s = 0, phase_s = 0, wall_s = 0, cpu_s = 0;
+};
+
+// One after the other: `base` makes the surface of about so many vertices (not timed), the rest of the
+// request counts for all; `done` hears of each. An interrupt ends it after the size at hand. Throws Error.
+std::vector<WrinkleCost> wrinkle_costs(WrinkleRequest request,
+                                       const std::function<WrinkleScene(int vertices)>& base,
+                                       const std::vector<int>& sizes,
+                                       const std::function<void(const WrinkleCost&)>& done = {});
+
+// Time over vertices, all and by what it goes into, both logarithmic.
+void plot_costs(const std::filesystem::path& file, const std::string& name,
+                const std::vector<WrinkleCost>& costs);
+
+}  // namespace plisse
