@@ -174,7 +174,8 @@ ordered_json to_json(const DrapeFrame& frame) {
                        {"factor_nonzeros", e.factor_nonzeros},
                        {"trace", trace}};
   if (frame.contact)
-    json.update({{"inside", frame.contact->inside},
+    json.update({{"friction_J", e.friction},
+                 {"inside", frame.contact->inside},
                  {"deepest_m", frame.contact->deepest},
                  {"nearest_m", frame.contact->nearest}});
   return json;
