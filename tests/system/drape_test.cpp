@@ -504,6 +504,41 @@ TEST(Drape, CostsArePlotted) {
   EXPECT_THAT(odd.err, HasSubstr("--cost"));
 }
 
+// What would have no effect is refused, what says how it is solved counts.
+TEST(Drape, CostsTakeOptionsThatCount) {
+  const TemporaryFolder folder;
+  const std::string plot = (folder / "cost.svg").string(), report = (folder / "cost.json").string();
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> command = {"drape", "--example", "strip", "--cost", "60", "-o", plot};
+    command.insert(command.end(), more.begin(), more.end());
+    return plisse(command);
+  };
+  for (const auto& [option, value] :
+       std::vector<std::pair<std::string, std::string>>{{"--vertices", "100"},
+                                                        {"--start", "start.obj"},
+                                                        {"--frames", "1-3"},
+                                                        {"--steps", "3"},
+                                                        {"--cache-dir", (folder / "cache").string()}}) {
+    const Outcome refused = run({option, value});
+    EXPECT_EQ(refused.code, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr(option + ": has no effect beside --cost"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(plot));
+  // The energy after one step tells where it began and by which law.
+  const auto energy = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--iterations", "1", "--json", report});
+    EXPECT_EQ(run(more).code, 1) << "one step is too few";
+    return nlohmann::json::parse(read_text(report))["costs"][0]["energy_J"].get<double>();
+  };
+  const double plain = energy({});
+  EXPECT_EQ(energy({"--perturb", "0"}), plain);
+  EXPECT_NE(energy({"--perturb", "1 cm"}), plain);
+  EXPECT_NE(energy({"--seed", "2"}), plain);
+  EXPECT_NE(energy({"--model", "stvk"}), plain);
+  // A strip that is pulled at has nothing slack until it is shaken.
+  EXPECT_NE(energy({"--perturb", "1 cm", "--residual", "0.1"}), energy({"--perturb", "1 cm"}));
+}
+
 // Held at one corner from lying flat it is free to turn, which dead loads have a least energy of: it swings
 // down and hangs below.
 TEST(Drape, AHandkerchiefOnAPegHangs) {
