@@ -13,6 +13,7 @@ class CacheArguments {
  public:
   explicit CacheArguments(CLI::App& app);
   std::filesystem::path folder() const;  // empty: nowhere
+  bool given() const { return !folder_.empty(); }
 
  private:
   std::string folder_;

@@ -76,8 +76,8 @@ struct Arguments {
     app.add_option(
            "--cost", cost,
            described(
-               "Solve an example at each of these sizes, separated by commas, and plot what it costs: -o "
-               "cost.svg"))
+               "Solve an example at each of these sizes, separated by commas, each from its start to full "
+               "load in one go, and plot what it costs: -o cost.svg"))
         ->type_name("N,N,…");
     app.add_option("--iterations", iterations, "At most so many Newton steps a frame (default 1000)")
         ->type_name("N");
@@ -174,7 +174,8 @@ ordered_json to_json(const DrapeFrame& frame) {
                        {"factor_nonzeros", e.factor_nonzeros},
                        {"trace", trace}};
   if (frame.contact)
-    json.update({{"inside", frame.contact->inside},
+    json.update({{"friction_J", e.friction},
+                 {"inside", frame.contact->inside},
                  {"deepest_m", frame.contact->deepest},
                  {"nearest_m", frame.contact->nearest}});
   return json;
@@ -205,9 +206,20 @@ ordered_json to_json(const DrapeReport& report, const std::string& model) {
 int run_costs(Arguments arguments) {
   const std::vector<int> sizes = whole_numbers("--cost", arguments.cost, 20, 1000000);
   const std::filesystem::path output = arguments.output;
-  if (arguments.example.empty() || !arguments.vertices.empty() || output.extension() != ".svg")
+  if (arguments.example.empty() || output.extension() != ".svg")
     throw Error(ExitCode::bad_input,
                 "--cost solves an --example at sizes of its own, and writes -o FILE.svg");
+  const std::pair<const char*, bool> senseless[] = {{"--vertices", !arguments.vertices.empty()},
+                                                    {"--start", !arguments.start.empty()},
+                                                    {"--frames", !arguments.frames.empty()},
+                                                    {"--steps", !arguments.steps.empty()},
+                                                    {"--cache-dir", arguments.cache.given()}};
+  for (const auto& [option, given] : senseless)
+    if (given)
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: has no effect beside --cost, which solves anew at sizes of its own, from "
+                              "the example's start to full load in one go",
+                              option));
   check_writable(output);
   install_interrupt_handlers();
   const auto costs = drape_costs(

@@ -130,7 +130,8 @@ std::vector<Key> all_keys() {
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.vertices = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {20, 1e6}));
        }},
-      {"drape", "seed", "0 … 4294967295", "Another seed, another mesh of the panel.",
+      {"drape", "seed", "0 … 4294967295",
+       "Another seed, another mesh of the panel or garment (default: the garment file's own, of a panel 1).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
          s.seed = static_cast<std::uint32_t>(
              config::within(static_cast<double>(config::whole_of(n)), {0, 4294967295.0}));
@@ -385,17 +386,25 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
                                  repeated(name) ? "[[" + name + "]]" : "[" + name + "]"));
     }
   }
-  if (!settings.mesh.empty() + !settings.garment.empty() + (settings.panel[0] != 0) != 1)
-    complaints.add({1, 1}, "[drape] needs one of 'mesh', 'garment' and 'panel'");
   if (settings.material.contains("fabric")) {
     for (const char* key : {"young", "thickness"})
       if (settings.material.contains(key))
         complaints.add(root["material"][key].node()->source().begin,
                        fmt::format("key '{}': follows from 'fabric'; take one of them out", key));
   }
-  if (!settings.pieces.empty() && settings.garment.empty())
-    complaints.add(root["drape"]["pieces"].node()->source().begin,
-                   "key 'pieces': has no effect without 'garment'");
+  const auto needs = [&](const char* key, bool has_effect, const char* what) {
+    if (const Node* node = root["drape"][key].node(); node && !has_effect)
+      complaints.add(node->source().begin, fmt::format("key '{}': has no effect {}", key, what));
+  };
+  const bool garment = !settings.garment.empty(), mesh = !settings.mesh.empty(),
+             panel = settings.panel[0] != 0;
+  if (garment + mesh + panel != 1) {
+    complaints.add({1, 1}, "[drape] needs one of 'mesh', 'garment' and 'panel'");
+  } else {
+    for (const char* key : {"pieces", "wrap"}) needs(key, garment, "without 'garment'");
+    for (const char* key : {"vertices", "seed"}) needs(key, !mesh, "on a 'mesh', which is taken as it is");
+    needs("plane", panel, "without 'panel'");
+  }
   complaints.throw_if_any();
   return settings;
 }

@@ -54,7 +54,7 @@ struct DrapeSettings {
   std::vector<std::string> pieces;  // of the garment, by name; none: all
   std::array<double, 2> panel{};    // width and height of a rectangle that is meshed here
   int vertices = 0;  // of the panel or garment; 0: as its fabric asks for, of a panel without one 1000
-  std::uint32_t seed = 1;
+  std::optional<std::uint32_t> seed;     // none: the garment's file's own, of a panel 1
   bool upright = true;                   // the panel stands in the plane z = 0; else it lies in y = 0
   std::filesystem::path start;           // OBJ of the base's positions; empty: the rest shape
   std::optional<sizing::Fabric> fabric;  // in place of `young` and `thickness`

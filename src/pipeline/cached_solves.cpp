@@ -88,10 +88,10 @@ void members(auto& a, Is<shell::NewtonStep> auto& value) {
   a(iteration, seconds, energy, gradient_inf, step, shift);
 }
 void members(auto& a, Is<shell::Equilibrium> auto& value) {
-  auto& [positions, energy, gradient_inf, force_scale, iterations, converged, reason, anchors, trace,
-         assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros] = value;
-  a(positions, energy, gradient_inf, force_scale, iterations, converged, reason, anchors, trace, assembly_s,
-    factor_s, line_search_s, analysis_s, factor_nonzeros);
+  auto& [positions, energy, friction, gradient_inf, force_scale, iterations, converged, reason, anchors,
+         trace, assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros] = value;
+  a(positions, energy, friction, gradient_inf, force_scale, iterations, converged, reason, anchors, trace,
+    assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros);
 }
 
 // --- what a field depends on, and what it is

@@ -32,28 +32,6 @@ double peak_rss_MiB() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// A flat St. Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing
-// disturbs it. What obstacles push at stays where it is.
-Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,
-                    Positions positions) {
-  if (scene.perturb == 0) return positions;
-  std::mt19937 random(1);
-  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-    Eigen::Vector3d moved = positions.col(v);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double share = static_cast<double>(random()) / 2147483647.5 - 1;  // −1 … 1, the same everywhere
-      if (!conditions.held(axis, v)) moved[axis] += scene.perturb * share;
-    }
-    const bool touches =
-        std::any_of(loads.obstacles.begin(), loads.obstacles.end(), [&](const shell::Obstacle& obstacle) {
-          return std::min(shell::distance(obstacle, moved).value,
-                          shell::distance(obstacle, positions.col(v)).value) < loads.gap;
-        });
-    if (!touches) positions.col(v) = moved;
-  }
-  return positions;
-}
-
 // A point cache beside `output`: times are those of the frames in the scene, 24 a second.
 std::filesystem::path write_cache(const std::filesystem::path& output, const std::vector<int>& frames,
                                   const std::vector<Positions>& positions) {
@@ -186,6 +164,26 @@ void write_base(const std::filesystem::path& path, const DrapeScene& scene, cons
   }
   ply.elements = {std::move(vertices), std::move(faces)};
   io::write_ply(path, ply);
+}
+
+Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,
+                    Positions positions) {
+  if (scene.perturb == 0) return positions;
+  std::mt19937 random(1);
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    Eigen::Vector3d moved = positions.col(v);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = static_cast<double>(random()) / 2147483647.5 - 1;  // −1 … 1, the same everywhere
+      if (!conditions.held(axis, v)) moved[axis] += scene.perturb * share;
+    }
+    const bool touches =
+        std::any_of(loads.obstacles.begin(), loads.obstacles.end(), [&](const shell::Obstacle& obstacle) {
+          return std::min(shell::distance(obstacle, moved).value,
+                          shell::distance(obstacle, positions.col(v)).value) < loads.gap;
+        });
+    if (!touches) positions.col(v) = moved;
+  }
+  return positions;
 }
 
 double load_of_frame(const DrapeScene& scene, int n) {

@@ -73,6 +73,11 @@ struct DrapeState {
   double load = 0;
 };
 double load_of_frame(const DrapeScene& scene, int n);
+// Free coordinates moved at random by up to the scene's `perturb`, the same way every time: a flat St.
+// Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing disturbs it.
+// What obstacles push at stays where it is.
+shell::Positions perturbed(const DrapeScene& scene, const shell::Loads& loads,
+                           const shell::Conditions& conditions, shell::Positions positions);
 shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shell, int n, DrapeState& state,
                                const pipeline::SolvedCache& cache, pipeline::Reuse& reuse,
                                const shell::NewtonProgress& progress = {});

@@ -27,7 +27,9 @@ std::vector<DrapeCost> drape_costs(const std::function<DrapeScene(int vertices)>
       if (loads.forces.size() == 0) loads.forces = shell::Positions::Zero(3, scene.start.cols());
       loads.forces += scene.growing_forces;
     }
-    const auto start = loads.obstacles.empty() ? shell::carried(shell, conditions, scene.start) : scene.start;
+    const auto start =
+        perturbed(scene, loads, conditions,
+                  loads.obstacles.empty() ? shell::carried(shell, conditions, scene.start) : scene.start);
     DrapeCost cost;
     const double cpu = cpu_seconds();
     const auto began = std::chrono::steady_clock::now();

@@ -171,8 +171,9 @@ DrapeScene scene_of(const DrapeSettings& settings) {
       throw Error(error.code, fmt::format("{}: [drape] pieces: {}", settings.file.string(), error.what()));
     }
     scene.material = material_of_scene(settings, &panels.garment);
+    if (settings.seed) panels.options.seed = *settings.seed;
     const SewnGarment sewn = settings.vertices > 0
-                                 ? sew_garment(panels.garment, settings.vertices, settings.seed)
+                                 ? sew_garment(panels.garment, settings.vertices, panels.options.seed)
                                  : sew_garment(panels.garment, panels.options);
     scene.rest = sewn.rest.points;
     scene.rest_faces = sewn.rest.faces;
@@ -182,10 +183,11 @@ DrapeScene scene_of(const DrapeSettings& settings) {
     scene.material = material_of_scene(settings, nullptr);
     const auto outline = rectangle_outline(settings.panel[0], settings.panel[1]);
     const int vertices = settings.vertices > 0 ? settings.vertices : 1000;
+    const std::uint32_t seed = settings.seed.value_or(1);
     const FlatMesh mesh = !settings.mesh.empty() ? read_mesh(settings.mesh)
                           : settings.fabric && settings.vertices == 0
-                              ? fabric_mesh(outline, *settings.fabric, settings.seed)
-                              : delaunay_mesh(outline, {}, vertices, settings.seed);
+                              ? fabric_mesh(outline, *settings.fabric, seed)
+                              : delaunay_mesh(outline, {}, vertices, seed);
     scene.rest = scene.start = mesh.points;
     scene.rest_faces = scene.faces = mesh.faces;
     if (settings.mesh.empty() && !settings.upright) {

@@ -1,5 +1,7 @@
 // Answers that were found before, by a hash of all that they depend on: values in a file each, in a folder of
-// the user's. The program itself is part of the hash, so a new version finds nothing of an old one's.
+// the user's. The program itself is part of the hash, so a new version finds nothing of an old one's. The
+// processor is not: dense blocks have the same bytes with AVX2 and without (shell/dense.h), and what else
+// depends on it, the last bits of the C library's functions, makes another answer that balances as well.
 #pragma once
 
 #include <cstdint>

@@ -198,7 +198,7 @@ WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const fs::path& 
                              Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.complex().periods))};
   result.kkt = wrinkle::kkt_residual(problem, problem.pack(waves), excess, first);
   for (std::size_t f = 0; f < surface.topology.faces.size(); ++f) {
-    if (!problem.complex().live[f]) continue;
+    if (!problem.complex().live[f]) continue;  // need not close
     double round = 0;
     for (std::size_t side = 0; side < 3; ++side)
       round += wrinkle::side_sign(surface.topology, f, side) *

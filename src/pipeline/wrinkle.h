@@ -67,9 +67,11 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request);
 wrinkle::Model model_of(const WrinkleRequest& request);
 
 struct WrinkleEvaluation {
-  double energy = 0;    // J, as the solver's
-  double kkt = 0;       // scaled residual
-  double curl_max = 0;  // radians: the largest |sum of dφ round a face| where it has to be 0
+  double energy = 0;  // J, as the solver's
+  double kkt = 0;     // scaled residual
+  // Radians: the largest |sum of dφ round a face| where it has to be 0: on faces with waves, and on all of
+  // them where integrability is not relaxed.
+  double curl_max = 0;
 };
 
 // The energy of a field that somebody else solved: text files, one amplitude a vertex and one dφ an edge.

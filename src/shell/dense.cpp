@@ -67,11 +67,17 @@ PLISSE_INLINE void subtract_rows(const double* left, const double* right, Index 
         T::subtract(a, b, depth, c + j * stride + i, stride);
         continue;
       }
+      // Over an edge: in a copy, so that each number is made as it is inside. (To add what comes of zeros
+      // would turn −0 into 0, and whether a number lies in such a tile depends on the tile's size.)
       double whole[T::rows * T::columns] = {};
+      const Index end_column = std::min(j + T::columns, columns), end_row = std::min(i + T::rows, rows);
+      for (Index column = j; column < end_column; ++column)
+        for (Index row = std::max(i, column); row < end_row; ++row)
+          whole[(column - j) * T::rows + row - i] = c[column * stride + row];
       T::subtract(a, b, depth, whole, T::rows);
-      for (Index column = j; column < std::min(j + T::columns, columns); ++column)
-        for (Index row = std::max(i, column); row < std::min(i + T::rows, rows); ++row)
-          c[column * stride + row] += whole[(column - j) * T::rows + row - i];
+      for (Index column = j; column < end_column; ++column)
+        for (Index row = std::max(i, column); row < end_row; ++row)
+          c[column * stride + row] = whole[(column - j) * T::rows + row - i];
     }
 }
 
@@ -182,38 +188,45 @@ PLISSE_AVX2 bool factorise_block_wide(double* panel, Index stride, Index height,
   return factorise_block(panel, stride, height, width);
 }
 
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2");
-  return has;
-}
 #endif
 
-bool factorise_some(double* panel, Index stride, Index height, Index width) {
+bool factorise_some(double* panel, Index stride, Index height, Index width,
+                    [[maybe_unused]] Kernels kernels) {
 #ifdef PLISSE_AVX2
-  if (has_avx2()) return factorise_block_wide(panel, stride, height, width);
+  if (kernels == Kernels::widest && has_wide_kernels())
+    return factorise_block_wide(panel, stride, height, width);
 #endif
   return factorise_block_plain(panel, stride, height, width);
 }
 
 }  // namespace
 
+bool has_wide_kernels() {
+#ifdef PLISSE_AVX2
+  static const bool has = __builtin_cpu_supports("avx2");
+  return has;
+#else
+  return false;
+#endif
+}
+
 void subtract_products(const double* a, Index a_stride, double* c, Index c_stride, Index rows, Index columns,
-                       Index depth) {
+                       Index depth, [[maybe_unused]] Kernels kernels) {
   if (rows <= 0 || columns <= 0 || depth <= 0) return;
 #ifdef PLISSE_AVX2
-  if (has_avx2())
+  if (kernels == Kernels::widest && has_wide_kernels())
     return subtract_blocks<Wide>(a, a_stride, c, c_stride, rows, columns, depth, subtract_rows_wide);
 #endif
   subtract_blocks<Plain>(a, a_stride, c, c_stride, rows, columns, depth, subtract_rows_plain);
 }
 
-bool factorise_columns(double* panel, Index stride, Index height, Index width) {
+bool factorise_columns(double* panel, Index stride, Index height, Index width, Kernels kernels) {
   for (Index j = 0; j < width; j += column_block) {
     const Index here = std::min(column_block, width - j);
     double* corner = panel + j * stride + j;
-    if (!factorise_some(corner, stride, height - j, here)) return false;
+    if (!factorise_some(corner, stride, height - j, here, kernels)) return false;
     subtract_products(corner + here, stride, corner + here * stride + here, stride, height - j - here,
-                      width - j - here, here);
+                      width - j - here, here, kernels);
   }
   return true;
 }

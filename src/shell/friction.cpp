@@ -11,12 +11,12 @@ Contact friction(const Grip& grip, const Vector3d& x, double coefficient, double
   const double y = way.norm(), size = coefficient * grip.force;
   Contact contact;
   if (y >= slip) {
-    contact.value = size * y;
+    contact.value = size * (y - slip / 3);
     contact.first = size / y * way;
     contact.second = size / y * (along - way * way.transpose() / (y * y));
     return contact;
   }
-  contact.value = size * (-y * y * y / (3 * slip * slip) + y * y / slip + slip / 3);
+  contact.value = size * (-y * y * y / (3 * slip * slip) + y * y / slip);
   const double pull = 2 / slip - y / (slip * slip);  // f₀'/y
   contact.first = size * pull * way;
   contact.second = size * pull * along;

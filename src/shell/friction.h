@@ -21,7 +21,8 @@ struct Grip {
 
 // μ F f₀(|u|) and its derivatives by the vertex' place, u its way along the surface since the anchor, F the
 // force: f₀ has the slope 1 from the slip length ε on, where friction is all that it can be, and
-// f₀ = −y³/3ε² + y²/ε + ε/3 below, so that its force grows with y from 0 (IPC, eq. 16). J, convex.
+// f₀ = −y³/3ε² + y²/ε below, so that its force grows with y from 0 (IPC, eq. 16, less its constant ε/3: what
+// has not slipped has cost nothing). J, convex.
 Contact friction(const Grip& grip, const Eigen::Vector3d& x, double coefficient, double slip);
 
 }  // namespace plisse::shell

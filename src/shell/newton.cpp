@@ -98,7 +98,12 @@ class Search {
         break;
       }
     }
-    if (frictional_) result_.anchors = potential_.anchors(result_.positions);
+    if (frictional_) {
+      // What is told is of the last state, not of the forces it was found with.
+      if (steps_gripped > 0) grip(value, gradient, false);
+      tell(value, gradient);
+      result_.anchors = potential_.anchors(result_.positions);
+    }
     return std::move(result_);
   }
 
@@ -168,11 +173,16 @@ class Search {
     }
   }
 
-  void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
-            double shift) {
+  void tell(const Potential::Value& value, const VectorXd& gradient) {
     result_.energy = value.energy + potential_.offset();
+    result_.friction = value.friction;
     result_.force_scale = value.force_scale;
     result_.gradient_inf = gradient.size() > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
+  }
+
+  void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
+            double shift) {
+    tell(value, gradient);
     result_.trace.push_back({iteration, since(began_), result_.energy, result_.gradient_inf, step, shift});
   }
 

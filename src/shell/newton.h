@@ -28,7 +28,8 @@ struct NewtonStep {
 
 struct Equilibrium {
   Positions positions;
-  double energy = 0;        // J
+  double energy = 0;        // J, with friction's part
+  double friction = 0;      // J: the work against friction since the anchors, by the last grips' forces
   double gradient_inf = 0;  // N, of unknowns
   double force_scale = 0;   // N: what it is small against
   int iterations = 0;
@@ -43,10 +44,11 @@ struct Equilibrium {
 // Called after every step; false stops the search, whose last state is kept.
 using NewtonProgress = std::function<bool(const NewtonStep&, const Positions&)>;
 
-// Finds the equilibrium nearest downhill. The energy falls with every step; the search ends converged, at the
-// limit of iterations or time, when told to, or where double precision leaves nothing to gain, and says
-// which. Throws Error(bad_input) where the start has no finite energy (inside an obstacle, for one: the
-// vertex is named). Held coordinates are moved to their places first.
+// Finds the equilibrium nearest downhill. The energy falls with every step (friction's part jumps where its
+// forces are looked up anew; what is told at the end is by those of the last state); the search ends
+// converged, at the limit of iterations or time, when told to, or where double precision leaves nothing to
+// gain, and says which. Throws Error(bad_input) where the start has no finite energy (inside an obstacle, for
+// one: the vertex is named). Held coordinates are moved to their places first.
 Equilibrium find_equilibrium(const Shell& shell, const Conditions& conditions, const Loads& loads,
                              const Positions& start, const NewtonSettings& settings = {},
                              const NewtonProgress& progress = {});

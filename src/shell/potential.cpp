@@ -407,6 +407,8 @@ Potential::Value Potential::value(const Positions& x, Eigen::VectorXd* gradient)
     count(touching[v].value);
     if (gradient) push(v, touching[v].first);
   }
+  for (const Grip& grip : grips_)
+    value.friction += friction(grip, x.col(grip.vertex), loads_.friction, loads_.slip_length()).value;
   if (loads_.pressure != 0) count(pressure_energy(x, gradient ? &sum : nullptr, &size));
   if (gradient) {
     gradient->resize(unknowns());

@@ -27,6 +27,7 @@ class Potential {
 
   struct Value {
     double energy = 0;       // J; infinite where a vertex is inside an obstacle
+    double friction = 0;     // J, a part of it: the work against what grips, since the anchors
     double terms = 0;        // sum of the summands' absolute values, J: what rounding is relative to
     double force_scale = 0;  // N: largest sum of absolute forces of elements and loads on a vertex
   };

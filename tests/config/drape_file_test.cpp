@@ -99,6 +99,25 @@ TEST(DrapeFile, AllMistakesAtOnce) {
                          HasSubstr("bad.toml:6"), HasSubstr("write [[hold]]")));
 }
 
+TEST(DrapeFile, KeysThatWouldHaveNoEffectAreRefused) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "m.obj", "v 0 0 0\n");
+  test::write_text(folder / "p.toml", "");
+  const auto complaints = [&](const std::string& keys) {
+    return test::error_of([&] { parse_drape("[drape]\n" + keys, folder / "c.toml"); });
+  };
+  EXPECT_THAT(complaints("mesh = \"m.obj\"\nseed = 1\nvertices = 100\nplane = \"xy\"\n"),
+              AllOf(HasSubstr("c.toml:3:8: key 'seed': has no effect on a 'mesh'"),
+                    HasSubstr("c.toml:4:12: key 'vertices': has no effect on a 'mesh'"),
+                    HasSubstr("c.toml:5:9: key 'plane': has no effect without 'panel'")));
+  EXPECT_THAT(complaints("panel = [1, 1]\nwrap = 0.1\npieces = \"a\"\n"),
+              AllOf(HasSubstr("c.toml:3:8: key 'wrap': has no effect without 'garment'"),
+                    HasSubstr("c.toml:4:10: key 'pieces': has no effect without 'garment'")));
+  EXPECT_THAT(complaints("garment = \"p.toml\"\nplane = \"xz\"\n"), HasSubstr("c.toml:3:9: key 'plane'"));
+  EXPECT_EQ(complaints("garment = \"p.toml\"\nwrap = 1\npieces = \"a\"\nvertices = 100\nseed = 3\n"), "");
+  EXPECT_EQ(complaints("panel = [1, 1]\nvertices = 100\nseed = 3\nplane = \"xz\"\n"), "");
+}
+
 TEST(DrapeFile, ReferenceIsWhatTheParserSays) {
   EXPECT_THAT(test::read_text(test::source_file("docs/drape.md")), HasSubstr(drape_reference_markdown()))
       << "docs/drape.md has another table:\n"

@@ -91,6 +91,27 @@ TEST(DrapeScene, GarmentsAreOfTheirFabric) {
   EXPECT_EQ(scene("[material]\nyoung = 1e7\n").material.young, 1e7);
 }
 
+// With a number of vertices or as fine as its fabric asks for; where the scene has no seed, its file's
+// counts.
+TEST(DrapeScene, TheSeedMeshesAGarmentToo) {
+  const TemporaryFolder folder;
+  const auto rest = [&](const std::string& in_panels, const std::string& in_scene) {
+    write_text(folder / "p.toml",
+               "fabric = { B = 1e-5, E = 4e5 }\n[[panel]]\nname = \"a\"\noutline = [[0, 0], [0.2, 0], [0.2, "
+               "0.2], [0, 0.2]]\n" +
+                   in_panels);
+    write_text(folder / "cloth.toml", "[drape]\ngarment = \"p.toml\"\n" + in_scene);
+    return load_drape(folder / "cloth.toml").rest;
+  };
+  for (const std::string vertices : {"", "vertices = 200\n"}) {
+    const shell::Positions usual = rest("", vertices), other = rest("", vertices + "seed = 2\n");
+    EXPECT_TRUE(usual.cols() != other.cols() || usual != other) << vertices;
+    EXPECT_EQ(rest("", vertices + "seed = 1\n"), usual) << vertices;
+    EXPECT_EQ(rest("[sizing]\nseed = 2\n", vertices), other) << vertices;
+    EXPECT_EQ(rest("[sizing]\nseed = 2\n", vertices + "seed = 1\n"), usual) << vertices;
+  }
+}
+
 // In place of youngs_modulus and thickness.
 TEST(DrapeScene, SetUpsMayNameAFabric) {
   const TemporaryFolder folder;

@@ -54,41 +54,89 @@ TEST(SolvedCache, ABaseSurfaceIsSolvedOnceAndComesBackBitForBit) {
 
 TEST(SolvedCache, WhateverAnAnswerDependsOnMakesItAnother) {
   const test::TemporaryFolder folder;
-  const DrapeScene scene = drape_example("sphere-drape", some);
-  const shell::Conditions held = scene.conditions(1);
-  const shell::Shell shell = shell_of(scene);
+  const DrapeScene scene = drape_example("sphere-drape", 120);
   const SolvedCache cache(folder.path());
-  const auto answered = [&](const std::function<void(shell::Shell&, shell::Conditions&, shell::Loads&,
-                                                     shell::Positions&, shell::NewtonSettings&)>& change) {
-    shell::Shell other = shell;
-    shell::Conditions conditions = held;
-    shell::Loads loads = scene.loads;
-    shell::Positions start = scene.start;
-    shell::NewtonSettings settings = scene.newton;
-    settings.tolerance = 1e-4;
-    change(other, conditions, loads, start, settings);
+  struct Question {
+    shell::Shell shell;
+    shell::Conditions conditions;
+    shell::Loads loads;
+    shell::Positions start;
+    shell::NewtonSettings settings;
+  };
+  Question usual{shell_of(scene), scene.conditions(1), scene.loads, scene.start, scene.newton};
+  usual.settings.tolerance = 1e-4;
+  const auto answered = [&](const std::function<void(Question&)>& change) {
+    Question q = usual;
+    change(q);
     pipeline::Reuse reuse;
-    pipeline::cached_equilibrium(cache, reuse, other, conditions, loads, start, settings);
+    pipeline::cached_equilibrium(cache, reuse, q.shell, q.conditions, q.loads, q.start, q.settings);
     return reuse.answers;
   };
-  const auto nothing = [](auto&, auto&, auto&, auto&, auto&) {};
+  const auto nothing = [](Question&) {};
   ASSERT_EQ(answered(nothing), 0);
   ASSERT_EQ(answered(nothing), 1);
-  EXPECT_EQ(answered([](auto& s, auto&, auto&, auto&, auto&) { s.material.thickness *= 1.001; }), 0);
-  EXPECT_EQ(answered([](auto& s, auto&, auto&, auto&, auto&) { s.residual = 1e-4; }), 0);
-  EXPECT_EQ(answered([](auto&, auto&, auto& l, auto&, auto&) { l.gravity *= 1.001; }), 0);
-  EXPECT_EQ(answered([](auto&, auto&, auto& l, auto&, auto&) { l.gap *= 1.001; }), 0);
-  EXPECT_EQ(answered([](auto&, auto&, auto& l, auto&, auto&) {
-              std::get<shell::Sphere>(l.obstacles.front()).radius *= 0.999;
-            }),
-            0);
-  EXPECT_EQ(answered([](auto&, auto&, auto&, auto& p, auto&) { p(1, 7) += 1e-9; }), 0);
-  EXPECT_EQ(answered([](auto&, auto&, auto&, auto&, auto& n) { n.tolerance *= 1.001; }), 0);
+  const Eigen::Index count = scene.start.cols();
+  // Not one of these solves what was solved before, the usual or another of them.
+  const std::pair<const char*, std::function<void(Question&)>> others[] = {
+      {"young", [](Question& q) { q.shell.material.young *= 1.001; }},
+      {"poisson", [](Question& q) { q.shell.material.poisson *= 1.001; }},
+      {"thickness", [](Question& q) { q.shell.material.thickness *= 1.001; }},
+      {"density", [](Question& q) { q.shell.material.density *= 1.001; }},
+      {"residual", [](Question& q) { q.shell.residual = 1e-4; }},
+      {"bending", [](Question& q) { q.shell.bending = shell::Bending::midedge; }},
+      {"rest", [](Question& q) { q.shell.rest[3].area *= 1.001; }},
+      {"held where", [](Question& q) { q.conditions.hold(7, 1, q.start(1, 7) + 1e-9); }},
+      {"held elsewhere", [](Question& q) { q.conditions.hold(7, 1, q.start(1, 7)); }},
+      {"mirrors",
+       [](Question& q) {
+         q.conditions.mirrors = {{0, 0}};
+       }},
+      {"where a mirror is",
+       [](Question& q) {
+         q.conditions.mirrors = {{0, 1e-9}};
+       }},
+      {"its axis",
+       [](Question& q) {
+         q.conditions.mirrors = {{2, 0}};
+       }},
+      {"gravity", [](Question& q) { q.loads.gravity *= 1.001; }},
+      {"forces",
+       [=](Question& q) {
+         q.loads.forces = shell::Positions::Zero(3, count);
+         q.loads.forces(1, 5) = -1e-9;
+       }},
+      {"gap", [](Question& q) { q.loads.gap *= 1.001; }},
+      {"contact stiffness", [](Question& q) { q.loads.contact_stiffness = 1e6; }},
+      {"radius", [](Question& q) { std::get<shell::Sphere>(q.loads.obstacles.front()).radius *= 0.999; }},
+      {"friction", [](Question& q) { q.loads.friction = 0.3; }},
+      {"more friction", [](Question& q) { q.loads.friction = 0.301; }},
+      {"slip",
+       [](Question& q) {
+         q.loads.friction = 0.3;
+         q.loads.slip = 0.11 * q.loads.gap;
+       }},
+      {"anchors",
+       [](Question& q) {
+         q.loads.friction = 0.3;
+         q.loads.anchors = {q.start};
+       }},
+      {"where an anchor is",
+       [](Question& q) {
+         q.loads.friction = 0.3;
+         q.loads.anchors = {q.start};
+         q.loads.anchors[0](2, 7) += 1e-9;
+       }},
+      {"start", [](Question& q) { q.start(1, 7) += 1e-9; }},
+      {"tolerance", [](Question& q) { q.settings.tolerance *= 1.001; }},
+      {"iterations", [](Question& q) { ++q.settings.max_iterations; }},
+      {"seconds", [](Question& q) { q.settings.max_seconds = 1e4; }},
+  };
+  for (const auto& [what, change] : others) EXPECT_EQ(answered(change), 0) << what;
   EXPECT_EQ(answered(nothing), 1);
   // A place that is not held is not looked at.
-  EXPECT_EQ(answered([](auto&, auto& c, auto&, auto&, auto&) {
-              for (Eigen::Index v = 0; v < c.held.cols(); ++v)
-                if (!c.held.col(v).any()) c.at.col(v).setConstant(3);
+  EXPECT_EQ(answered([](Question& q) {
+              for (Eigen::Index v = 0; v < q.conditions.held.cols(); ++v)
+                if (!q.conditions.held.col(v).any()) q.conditions.at.col(v).setConstant(3);
             }),
             1);
 }
@@ -113,14 +161,25 @@ TEST(SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBit) {
   EXPECT_EQ(test::read_bytes(folder / "again.ply"), test::read_bytes(folder / "alone.ply"));
 
   request.cache = folder / "cache";
-  request.curvature_factor = 1.44;
-  EXPECT_FALSE(wrinkle_field(request).from_cache);
-  request.curvature_factor = 1;
-  request.options.frequency = 1.1;
-  EXPECT_FALSE(wrinkle_field(request).from_cache);
-  request.options.frequency = 1;
-  request.pin_held = false;
-  EXPECT_FALSE(wrinkle_field(request).from_cache);
+  const std::pair<const char*, std::function<void(WrinkleRequest&)>> others[] = {
+      {"curvature factor", [](WrinkleRequest& r) { r.curvature_factor = 1.44; }},
+      {"v1", [](WrinkleRequest& r) { r.v1 = false; }},
+      {"v2", [](WrinkleRequest& r) { r.v2 = false; }},
+      {"relaxed integrability", [](WrinkleRequest& r) { r.relaxed_integrability = false; }},
+      {"crest compression", [](WrinkleRequest& r) { r.crest_compression = true; }},
+      {"frequency", [](WrinkleRequest& r) { r.options.frequency = 1.1; }},
+      {"local law", [](WrinkleRequest& r) { r.options.local_law = true; }},
+      {"all starts", [](WrinkleRequest& r) { r.options.all_starts = true; }},
+      {"iterations", [](WrinkleRequest& r) { ++r.options.solve.max_iterations; }},
+      {"held", [](WrinkleRequest& r) { r.pin_held = false; }},
+      {"thickness", [](WrinkleRequest& r) { r.scene.material.thickness *= 1.001; }},
+  };
+  for (const auto& [what, change] : others) {
+    WrinkleRequest other = request;
+    change(other);
+    EXPECT_FALSE(wrinkle_field(other).from_cache) << what;
+  }
+  EXPECT_TRUE(wrinkle_field(request).from_cache);
 }
 
 TEST(SolvedCache, WhatIsNotWholeIsSolvedAgain) {

@@ -154,35 +154,83 @@ TEST(Drape, SceneFiles) {
 }
 
 // A strip pulled at its end, a metre of which bears 2 N: σ h = 2 N/m, so λ₁/2 (1 + λ₁)^½ · Y h = 2 (the load
-// is dead, a rest length). And the same from a quarter of it between mirrors.
-TEST(Drape, EdgeForcesAndMirrors) {
+// is dead, a rest length).
+TEST(Drape, EdgeForces) {
   const TemporaryFolder folder;
-  const auto width = [&](const std::string& scene) {
-    write_text(folder / "strip.toml", scene);
+  write_text(folder / "strip.toml",
+             "[drape]\npanel = [0.2, 0.1]\nvertices = 100\nframes = 3\n"
+             "[material]\nyoung = 1e5\nthickness = \"0.2 mm\"\npoisson = 0.3\n"
+             "[loads]\ngravity = [0, 0, 0]\n"
+             "[[hold]]\nbox = [[-9, -9, -9], [9, 9, 9]]\naxes = \"z\"\n"
+             "[[hold]]\nbox = [[-1, -1, -1], [1e-6, 1, 1]]\naxes = \"x\"\n"
+             "[[hold]]\nvertices = [0]\naxes = \"y\"\n"
+             "[[force]]\nbox = [[0.199999, -1, -1], [1, 1, 1]]\nper_length = [2, 0, 0]\ngrows = true\n");
+  const std::string base = (folder / "base.ply").string();
+  const Outcome outcome = plisse({"drape", (folder / "strip.toml").string(), "-o", base});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const io::Ply ply = io::read_ply(base);
+  const auto& x = ply.find("vertex")->find("x")->values;
+  // F; λ₁ = F² − 1, and a rest length bears ½Yh λ₁ F of it.
+  const double stretch = *std::max_element(x.begin(), x.end()) / 0.2;
+  EXPECT_NEAR(0.5 * 1e5 * 2e-4 * (stretch * stretch - 1) * stretch, 2, 1e-6);
+}
+
+// A plate strip clamped at both ends sags under its weight and bends most in its middle. Half of it up to a
+// mirror there is the same surface, vertex by vertex; without the mirror it is a strip that ends there, free
+// to turn, and sags further.
+TEST(Drape, MirrorsBendAndStretchAsTheWhole) {
+  const TemporaryFolder folder;
+  constexpr int half = 8, rows = 3;  // columns; x from 0 to .2 m in 16
+  const auto write_mesh = [&](const char* name, int columns) {
+    std::string obj;
+    for (int j = 0; j <= rows; ++j)
+      for (int i = 0; i <= columns; ++i) obj += fmt::format("v {} {} 0\n", 0.0125 * i, 0.0125 * j);
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i) {
+        const int a = j * (columns + 1) + i + 1, b = a + 1, c = a + columns + 1, d = c + 1;
+        // The diagonals of the second half are the first one's mirror images.
+        obj += i < half ? fmt::format("f {0} {1} {3}\nf {0} {3} {2}\n", a, b, c, d)
+                        : fmt::format("f {0} {1} {2}\nf {1} {3} {2}\n", a, b, c, d);
+      }
+    write_text(folder / name, obj);
+  };
+  write_mesh("whole.obj", 2 * half);
+  write_mesh("half.obj", half);
+  const auto draped = [&](const std::string& mesh, const std::string& hold) {
+    write_text(folder / "plate.toml", "[drape]\nmesh = \"" + mesh +
+                                          "\"\nmodel = \"stvk\"\ntolerance = 1e-9\n"
+                                          "[material]\nyoung = 1e6\nthickness = \"1 mm\"\ndensity = 3\n"
+                                          "[loads]\ngravity = [0, 0, -9.81]\n"
+                                          "[[hold]]\nbox = [[-1, -1, -1], [0.013, 1, 1]]\n" +
+                                          hold);
     const std::string base = (folder / "base.ply").string();
-    const Outcome outcome = plisse({"drape", (folder / "strip.toml").string(), "-o", base});
+    const Outcome outcome = plisse({"drape", (folder / "plate.toml").string(), "--perturb", "0", "-o", base});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const io::Ply ply = io::read_ply(base);
-    double far = 0;
-    for (const double x : ply.find("vertex")->find("x")->values) far = std::max(far, x);
-    return far;
+    std::vector<glm::dvec3> points;
+    const auto* vertex = ply.find("vertex");
+    for (std::size_t v = 0; v < vertex->count; ++v)
+      points.emplace_back(vertex->find("x")->values[v], vertex->find("y")->values[v],
+                          vertex->find("z")->values[v]);
+    return points;
   };
-  const std::string material =
-      "vertices = 100\nframes = 3\n[material]\nyoung = 1e5\nthickness = \"0.2 mm\"\npoisson = 0.3\n";
-  const std::string flat =
-      "[[hold]]\nbox = [[-9, -9, -9], [9, 9, 9]]\naxes = \"z\"\n[loads]\ngravity = [0, 0, 0]\n";
-  const double whole =
-      width("[drape]\npanel = [0.2, 0.1]\n" + material + flat +
-            "[[hold]]\nbox = [[-1, -1, -1], [1e-6, 1, 1]]\naxes = \"x\"\n"
-            "[[hold]]\nvertices = [0]\naxes = \"y\"\n"
-            "[[force]]\nbox = [[0.199999, -1, -1], [1, 1, 1]]\nper_length = [2, 0, 0]\ngrows = true\n");
-  const double stretch = whole / 0.2;  // F; λ₁ = F² − 1, and a rest length bears ½Yh λ₁ F of it
-  EXPECT_NEAR(0.5 * 1e5 * 2e-4 * (stretch * stretch - 1) * stretch, 2, 1e-6);
-  const double quarter = width("[drape]\npanel = [0.2, 0.05]\n" + material + flat +
-                               "[[hold]]\nbox = [[-1, -1, -1], [1e-6, 1, 1]]\naxes = \"x\"\nmirror = true\n"
-                               "[[hold]]\nbox = [[-1, -1, -1], [1, 1e-6, 1]]\naxes = \"y\"\nmirror = true\n"
-                               "[[force]]\nbox = [[0.199999, -1, -1], [1, 1, 1]]\nper_length = [2, 0, 0]\n");
-  EXPECT_NEAR(quarter, whole, 1e-6);
+  const std::string middle = "[[hold]]\nbox = [[0.0999, -1, -1], [1, 1, 1]]\naxes = \"x\"\n";
+  const auto whole = draped("whole.obj", "[[hold]]\nbox = [[0.187, -1, -1], [1, 1, 1]]\n"),
+             mirrored = draped("half.obj", middle + "mirror = true\n"), ended = draped("half.obj", middle);
+  ASSERT_EQ(whole.size(), std::size_t{(2 * half + 1) * (rows + 1)});
+  ASSERT_EQ(mirrored.size(), std::size_t{(half + 1) * (rows + 1)});
+  double apart = 0, sag = 0, free_sag = 0;
+  for (std::size_t j = 0; j <= rows; ++j)
+    for (std::size_t i = 0; i <= half; ++i) {
+      const std::size_t v = j * (half + 1) + i;
+      apart = std::max(apart, glm::distance(mirrored[v], whole[j * (2 * half + 1) + i]));
+      sag = std::max(sag, -mirrored[v].z);
+      free_sag = std::max(free_sag, -ended[v].z);
+    }
+  // Forces balance to 1e-9 of those that meet, which the bending, the softest there is, makes some 1e-7 of
+  // the sag of.
+  EXPECT_LT(apart, 1e-6 * sag);
+  EXPECT_GT(free_sag, 1.2 * sag);
 }
 
 // Cloth on a plane that moves in itself by 5 cm: with friction it goes along, without it stays.
@@ -454,6 +502,41 @@ TEST(Drape, CostsArePlotted) {
   const Outcome odd = plisse({"drape", "--example", "strip", "--cost", "60,", "-o", plot});
   EXPECT_EQ(odd.code, 2);
   EXPECT_THAT(odd.err, HasSubstr("--cost"));
+}
+
+// What would have no effect is refused, what says how it is solved counts.
+TEST(Drape, CostsTakeOptionsThatCount) {
+  const TemporaryFolder folder;
+  const std::string plot = (folder / "cost.svg").string(), report = (folder / "cost.json").string();
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> command = {"drape", "--example", "strip", "--cost", "60", "-o", plot};
+    command.insert(command.end(), more.begin(), more.end());
+    return plisse(command);
+  };
+  for (const auto& [option, value] :
+       std::vector<std::pair<std::string, std::string>>{{"--vertices", "100"},
+                                                        {"--start", "start.obj"},
+                                                        {"--frames", "1-3"},
+                                                        {"--steps", "3"},
+                                                        {"--cache-dir", (folder / "cache").string()}}) {
+    const Outcome refused = run({option, value});
+    EXPECT_EQ(refused.code, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr(option + ": has no effect beside --cost"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(plot));
+  // The energy after one step tells where it began and by which law.
+  const auto energy = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--iterations", "1", "--json", report});
+    EXPECT_EQ(run(more).code, 1) << "one step is too few";
+    return nlohmann::json::parse(read_text(report))["costs"][0]["energy_J"].get<double>();
+  };
+  const double plain = energy({});
+  EXPECT_EQ(energy({"--perturb", "0"}), plain);
+  EXPECT_NE(energy({"--perturb", "1 cm"}), plain);
+  EXPECT_NE(energy({"--seed", "2"}), plain);
+  EXPECT_NE(energy({"--model", "stvk"}), plain);
+  // A strip that is pulled at has nothing slack until it is shaken.
+  EXPECT_NE(energy({"--perturb", "1 cm", "--residual", "0.1"}), energy({"--perturb", "1 cm"}));
 }
 
 // Held at one corner from lying flat it is free to turn, which dead loads have a least energy of: it swings
