@@ -170,6 +170,7 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
 // frames (docs/passes.md, "Skin"); where the file has none the surface's own stand in.
 void set_render_normals(Surface& surface, const std::vector<glm::dvec3>& normals) {
   const RestFrames rest = rest_frames(surface);
+  const bool bound = surface.rest == surface.bind;
   for (std::size_t r = 0; r < normals.size(); ++r) {
     RenderVertex& vertex = surface.render_vertices[r];
     const std::size_t v = vertex.welded;
@@ -178,11 +179,10 @@ void set_render_normals(Surface& surface, const std::vector<glm::dvec3>& normals
       const glm::dvec3 n = surface.bind_normal[v];
       const glm::dvec3 t = tangent_along(surface.bind[rest.tangent_neighbour[v]] - surface.bind[v], n);
       const glm::dvec3 b = glm::cross(n, t);
-      normal = surface.rest == surface.bind
-                   ? normals[r]
-                   : glm::dot(normals[r], t) * rest.tangent[v] +
-                         glm::dot(normals[r], b) * glm::cross(rest.normal[v], rest.tangent[v]) +
-                         glm::dot(normals[r], n) * rest.normal[v];
+      normal = bound ? normals[r]
+                     : glm::dot(normals[r], t) * rest.tangent[v] +
+                           glm::dot(normals[r], b) * glm::cross(rest.normal[v], rest.tangent[v]) +
+                           glm::dot(normals[r], n) * rest.normal[v];
     }
     vertex.normal = glm::vec3(glm::normalize(normal));
   }
