@@ -213,12 +213,19 @@ Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms
 }
 
 shell::Positions displaced(const FineField& field, bool with_v2) {
+  // (19) is for shallow waves. Cloth of which sine waves of any slope a|∇φ| take up the length shifts along
+  // the surface by a²|∇φ|/8 where they are shallow and by no more than max |1 − cos φ − 2φ/π| a where they
+  // are steep: where the base surface is all but collapsed, and ∇φ without bounds.
+  constexpr double most_shift = 0.2105;
   shell::Positions result = field.positions;
   for (Index v = 0; v < result.cols(); ++v) {
     const double a = field.amplitude[v], phase = field.phase[v];
     if (!(a > 0)) continue;
     result.col(v) += a * std::cos(phase) * field.normals.col(v);
-    if (with_v2) result.col(v) += a * a / 8 * std::sin(2 * phase) * field.gradient.col(v);
+    const double slope = a * field.gradient.col(v).norm();
+    if (with_v2 && slope > 0)
+      result.col(v) +=
+          std::min(slope / 8, most_shift) * a / slope * std::sin(2 * phase) * a * field.gradient.col(v);
     if (field.lean.cols() > 0) result.col(v) += a * std::sin(phase) * field.lean.col(v);
   }
   return result;

@@ -278,6 +278,44 @@ TEST(Upsample, TangentialTermMakesWavesAsLongAsTheirRestShape) {
   EXPECT_LT(with, 2 * s0 * s0);        // ¼s₀² and what a chord of 1/29 of a wave leaves
 }
 
+// Where the base surface is all but collapsed, phases turn within nothing and ∇φ has no bounds: a shift
+// a²|∇φ|/8 would throw cloth metres away. The most that a sine wave of whatever slope shifts cloth is by
+// integration of its length: of z = cos(x/s)·s over a quarter, the largest difference of length run and its
+// even share.
+TEST(Upsample, SteepWavesShiftClothByAFractionOfTheirHeight) {
+  const auto steepest_shift = [](double slope) {  // in amplitudes
+    const int n = 4000;
+    double length = 0, most = 0;
+    std::vector<double> run;
+    for (int i = 0; i < n; ++i) {
+      run.push_back(length);
+      length += std::hypot(1, slope * std::sin((i + 0.5) / n * std::numbers::pi / 2));
+    }
+    // Cloth that lay at share i/n of the quarter by length lies at another share of the way.
+    for (int i = 0; i < n; ++i)
+      most = std::max(most, std::abs(run[static_cast<std::size_t>(i)] / length - static_cast<double>(i) / n));
+    return most * std::numbers::pi / 2 / slope * (length / n);  // along the cloth
+  };
+  FineField one;
+  one.positions = Eigen::Matrix3Xd::Zero(3, 1);
+  one.normals = Vector3d(0, 1, 0);
+  one.amplitude = Eigen::VectorXd::Constant(1, 0.02);
+  one.phase = Eigen::VectorXd::Constant(1, std::numbers::pi / 4);
+  for (const double slope : {0.01, 0.1, 1.0, 10.0, 1e3, 1e9}) {
+    one.gradient = Vector3d(slope / 0.02, 0, 0);
+    const double shift = displaced(one)(0, 0) / 0.02;
+    if (slope <= 0.1) {
+      EXPECT_NEAR(shift / (slope / 8), 1, 1e-12);
+      EXPECT_NEAR(shift / steepest_shift(slope), 1, 0.02) << slope;  // its next term is of order slope²
+    }
+    EXPECT_LE(shift, 0.2106) << slope;
+    EXPECT_NEAR(displaced(one)(1, 0), 0.02 * std::sqrt(0.5), 1e-12);
+  }
+  EXPECT_NEAR(steepest_shift(1e3), 0.2105, 0.001);
+  one.gradient.setZero();
+  EXPECT_EQ(displaced(one)(0, 0), 0);
+}
+
 // A ring that keeps its length to first order: radial a cos nθ with a sin nθ/n along it.
 TEST(Upsample, LeaningKeepsARingsLength) {
   const double radius = 0.4, a = 1e-4;
