@@ -11,7 +11,7 @@ SCENES = (
     ('disk-balloon', 'fine, equator', 'elevation = 35', 'rays from the equator, poles smooth; neighbouring waves vary in height'),
     ('teabag', 'fine, boundary', 'elevation = 45', 'across all four sides, middle smooth'),
     ('sphere-drape', 'round the ball', 'elevation = 20', 'folds from the ball to the hem, top smooth'),
-    ('skirt', 'their dress of 1,333: 17 s in the solver', 'elevation = 8', ''),
+    ('skirt', 'their dress of 1,333: 17 s in the solver', 'elevation = 8', 'a fold for each gather, from waist to hem; steep at the sides, where the base surface is all but collapsed'),
 )
 LOOK = '''[camera]
 focal_length = 85
