@@ -302,7 +302,7 @@ TEST_F(Relax, SmoothingIgnoresIdleNeighbours) {
 
 // wrinkle-passes.md: from 1/12 turns² of random phases to a plateau of .024–.030 as a mean of many seeds. All
 // grids are one surface, so it costs one run.
-TEST_F(Relax, DescentGetsStuckWhereThePaperDoes) {
+TEST_F(Relax, DescentGetsStuckWhereThePaperDoesSlow) {
   constexpr int seeds = 128;
   constexpr double W = 0.2;
   Squeezed squares(test::grid(12, 12, 0.1, 0.3, 5, W, seeds), W, 6);

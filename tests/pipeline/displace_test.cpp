@@ -77,7 +77,7 @@ TEST_F(Displace, TheSquareRisesAsTheClosedFormSays) {
 
 // Every way in which the shader is compiled: tables, finer waves, both blends, several materials; on a bent
 // surface.
-TEST_F(Displace, ThePassAgreesWithTheReference) {
+TEST_F(Displace, ThePassAgreesWithTheReferenceSlow) {
   for (const char* variant : {"plain", "accordion", "fine", "linear"}) {
     SceneSettings settings = load_scene(test::asset("sleeve.toml"));
     const std::string name = variant;

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Sleeve, FrameIdentity,
                                            Variant{true, 3}),
                          [](const auto& variant) { return name_of(variant.param); });
 
-TEST_F(Frames, AStateFileGoesOnWhereItStopped) {
+TEST_F(Frames, AStateFileGoesOnWhereItStoppedSlow) {
   const TemporaryFolder whole, parts;
   run(small_sleeve(whole.path(), "1-24"));
   const auto go_on = [&](const std::string& frames) {
@@ -165,7 +165,7 @@ TEST_F(Frames, SkipExistingTrustsOnlyWholeFramesOfTheSameScene) {
 
 // Whatever decides a pixel counts: a frame of another scene is never taken for one of this. Each alteration
 // meets a frame that is trusted until then.
-TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixel) {
+TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixelSlow) {
   const TemporaryFolder folder;
   RenderRequest request = small_sleeve(folder.path(), "2");
   request.scene.model.loop = false;

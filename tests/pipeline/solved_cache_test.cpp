@@ -52,7 +52,7 @@ TEST(SolvedCache, ABaseSurfaceIsSolvedOnceAndComesBackBitForBit) {
   EXPECT_EQ(known.trace.back().gradient_inf, told.trace.back().gradient_inf);
 }
 
-TEST(SolvedCache, WhateverAnAnswerDependsOnMakesItAnother) {
+TEST(SolvedCache, WhateverAnAnswerDependsOnMakesItAnotherSlow) {
   const test::TemporaryFolder folder;
   const DrapeScene scene = drape_example("sphere-drape", 120);
   const SolvedCache cache(folder.path());
@@ -141,7 +141,7 @@ TEST(SolvedCache, WhateverAnAnswerDependsOnMakesItAnother) {
             1);
 }
 
-TEST(SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBit) {
+TEST(SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBitSlow) {
   const test::TemporaryFolder folder;
   WrinkleRequest request;
   request.scene = base_of(drape_example("stretched-sheet", some), folder / "cache");

@@ -173,7 +173,7 @@ TEST(ReferenceRelax, StabilityEndsAtFourThirdsOfThatOnRegularTriangles) {
     EXPECT_NEAR(growth(epsilon), std::pow(std::abs(1 - 1.5 * epsilon / (2 * pi * pi)), 10), 1e-8);
 }
 
-TEST(ReferenceRelax, DescentGetsStuckWhereThePaperDoes) {
+TEST(ReferenceRelax, DescentGetsStuckWhereThePaperDoesSlow) {
   // wrinkle-passes.md: .024–.030 turns² as a mean of 32 seeds or more, from 1/12 of random phases. One seed's
   // standard deviation is .0055, so the mean of 128 is known to .0005.
   constexpr unsigned seeds = 128;

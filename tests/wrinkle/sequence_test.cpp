@@ -119,7 +119,7 @@ TEST(Sequence, CrossFadeIsThatOfComplexAmplitudes) {
 }
 
 // More and more tension makes more and more waves.
-TEST(Sequence, ChangesOfPeriodsAreFewListedAndSmooth) {
+TEST(Sequence, ChangesOfPeriodsAreFewListedAndSmoothSlow) {
   constexpr int frames = 27;
   const auto tube_at = [](int n) { return Tube(0.02, 0.3, 0.02 * std::pow(1.08, n)); };
   const auto run = [&](int fade) {
