@@ -107,8 +107,9 @@ void main() {
         gradient += c * swell - 2.0 * pi * A * s * slope;
         float sin2 = 2.0 * s * c, cos2 = c * c - s * s;
         slide_direction = 2.0 * pi * slope;
-        sliding = 0.125 * A * A * sin2 * slide_direction;
-        slide_climb = 0.25 * A * (sin2 * swell + A * cos2 * slide_direction);
+        float share = min(0.125, 0.5 / max(A * A * dot(slide_direction, slide_direction), 1e-9));  // cloth stays in order
+        sliding = share * A * A * sin2 * slide_direction;
+        slide_climb = 2.0 * share * A * (sin2 * swell + A * cos2 * slide_direction);
     }
 #endif
 

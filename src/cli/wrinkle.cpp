@@ -310,11 +310,19 @@ int run_sequence(const Arguments& arguments, WrinkleRequest each) {
 
 int run_costs(Arguments arguments, const WrinkleRequest& request) {
   const std::vector<int> sizes = whole_numbers("--cost", arguments.cost, 20, 1000000);
-  if (arguments.example.empty() || !arguments.input.empty() || !arguments.vertices.empty() ||
-      !arguments.frames.empty() || !arguments.cache.empty() || !arguments.mesh.empty() ||
-      !arguments.evaluate.empty() || request.output.extension() != ".svg")
+  if (arguments.example.empty() || request.output.extension() != ".svg")
     throw Error(ExitCode::bad_input,
-                "--cost solves an --example at sizes of its own, and writes -o FILE.svg alone");
+                "--cost solves an --example at sizes of its own, and writes -o FILE.svg");
+  const std::pair<const char*, bool> senseless[] = {
+      {"--vertices", !arguments.vertices.empty()},   {"--frames", !arguments.frames.empty()},
+      {"--cache", !arguments.cache.empty()},         {"--fade", arguments.fade != "6"},
+      {"--hysteresis", arguments.hysteresis != "9"}, {"--mesh", !arguments.mesh.empty()},
+      {"--evaluate", !arguments.evaluate.empty()},   {"--cache-dir", arguments.solved.given()}};
+  for (const auto& [option, given] : senseless)
+    if (given)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{}: has no effect beside --cost, which solves anew at sizes of its own", option));
   check_writable(request.output);
   install_interrupt_handlers();
   const auto costs = wrinkle_costs(
@@ -339,7 +347,7 @@ int run_costs(Arguments arguments, const WrinkleRequest& request) {
     json["costs"].push_back({{"vertices", cost.vertices},
                              {"waves", cost.waves},
                              {"max_amplitude_m", cost.max_amplitude},
-                             {"energy_J", cost.energy},
+                             {"energy_whole_periods_J", cost.energy},
                              {"iterations", cost.iterations},
                              {"converged", cost.converged},
                              {"solve_s", cost.solve_s},
@@ -395,7 +403,7 @@ Command add_wrinkle(CLI::App& program) {
   app->footer(
       "\nplisse drape --example twisted-cylinder -o base.ply && plisse wrinkle base.ply -o field.ply\n"
       "A scene whose model is base.ply takes it up with [bias] field = \"field.ply\", use = \"direct\".\n"
-      "plisse wrinkle base_####.ply -o field_####.ply --mesh waves_####.glb    over time: waves glide, not "
+      "plisse wrinkle base_####.ply -o field_####.ply --mesh waves_####.ply    over time: waves glide, not "
       "pop");
   auto arguments = std::make_shared<Arguments>(*app);
   return {app, [arguments] { return run_wrinkle(*arguments); }};

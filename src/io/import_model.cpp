@@ -77,6 +77,8 @@ Model import_model(const std::filesystem::path& path, const ImportOptions& optio
   const std::vector<std::filesystem::path> frames =
       is_sequence ? sequence_files(path) : std::vector<std::filesystem::path>{path};
   check_model_file(frames.front(), options.limits);
+  if (is_sequence && reader_for(frames.front()) != import_obj && reader_for(frames.front()) != import_ply)
+    throw Error(ExitCode::bad_input, fmt::format("{}: a sequence is of OBJ or PLY files", path.string()));
   Model model = isolated_import(frames.front(), options);
   validate(model, options.limits);
   if (is_sequence && !options.cache.empty())

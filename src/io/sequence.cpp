@@ -211,9 +211,6 @@ std::vector<fs::path> sequence_files(const fs::path& pattern_or_folder) {
     throw Error(ExitCode::bad_input,
                 fmt::format("{}: no place for a frame number; write ####, %04d or {{frame:04}}",
                             pattern_or_folder.string()));
-  if (!is_folder && !is_ply(pattern_or_folder) && lower(pattern_or_folder.extension().string()) != ".obj")
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: a sequence is of OBJ or PLY files", pattern_or_folder.string()));
 
   std::map<std::uint64_t, fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

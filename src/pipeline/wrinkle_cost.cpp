@@ -7,7 +7,9 @@
 
 #include "base/atomic_file.h"
 #include "base/cpu_time.h"
+#include "base/error.h"
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "io/svg_plot.h"
 
 namespace plisse {
@@ -29,8 +31,17 @@ std::vector<WrinkleCost> wrinkle_costs(WrinkleRequest request,
   request.cache.clear();  // what was solved before would cost nothing
   std::vector<WrinkleCost> costs;
   for (const int size : sizes) {
-    request.scene = base(size);
     WrinkleCost cost;
+    try {
+      request.scene = base(size);
+    } catch (const Error& error) {
+      if (interrupted()) break;
+      if (error.code != ExitCode::check_failed) throw;
+      log::notice(error.what());
+      cost.vertices = static_cast<std::size_t>(size);
+      costs.push_back(cost);
+      continue;
+    }
     std::array<double, 3> solve{}, phase{}, wall{}, cpu{};
     for (std::size_t run = 0; run < 3 && !interrupted(); ++run) {
       const double before = cpu_seconds();
@@ -70,6 +81,7 @@ void plot_costs(const std::filesystem::path& file, const std::string& name,
   for (const auto& [part, seconds] : parts) {
     io::PlotSeries series{part, {}, true};
     for (const WrinkleCost& cost : costs) {
+      if (!(cost.wall_s > 0)) continue;
       io::PlotPoint point;
       point.x = static_cast<double>(cost.vertices);
       point.y = cost.*seconds;

@@ -14,14 +14,16 @@ struct WrinkleCost {
   std::size_t vertices = 0;
   int iterations = 0;  // of the solve with real periods
   bool converged = false;
-  double waves = 0, max_amplitude = 0, energy = 0;  // metres, J
+  double waves = 0, max_amplitude = 0;  // metres
+  double energy = 0;                    // J, with whole periods
   // Wall-clock seconds: the solver, phases and their whole periods, all of it (with curvature, without
   // draping and files); CPU seconds of all cores for all of it. Each the median of three runs.
   double solve_s = 0, phase_s = 0, wall_s = 0, cpu_s = 0;
 };
 
 // One after the other: `base` makes the surface of about so many vertices (not timed), the rest of the
-// request counts for all; `done` hears of each. An interrupt ends it after the size at hand. Throws Error.
+// request counts for all; `done` hears of each. A surface that does not converge is listed as not converged,
+// with no times. An interrupt leaves out the size at hand and all after it. Throws Error.
 std::vector<WrinkleCost> wrinkle_costs(WrinkleRequest request,
                                        const std::function<WrinkleScene(int vertices)>& base,
                                        const std::vector<int>& sizes,

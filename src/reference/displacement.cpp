@@ -24,8 +24,9 @@ Vector3d perpendicular(const Vector3d& n) {
 }
 
 // What a field's waves move within the surface (Chen et al. 2021, v₂): ⅛ A² sin 2φ ∇φ, so that cloth is
-// neither stretched nor squeezed along a wave; and its derivative by the place in the triangle's plane, with
-// ∇φ held: it turns over the bend of the waves, the rest over a wavelength.
+// neither stretched nor squeezed along a wave, but where waves are steeper than s = A|∇φ| = 2 by 1/(2s²) in
+// place of ⅛, or cloth would fold over itself. And its derivative by the place in the triangle's plane, with
+// ∇φ and s held: they turn over the bend of the waves, the rest over a wavelength.
 struct InPlane {
   Vector3d motion = Vector3d::Zero();
   Matrix3d gradient = Matrix3d::Zero();
@@ -37,8 +38,10 @@ InPlane in_plane_motion(const CarriedField& field, const Matrix3d& corners, cons
   const Vector3d amplitude_slope = blend_weights(corners, barycentric, blend).gradients * field.amplitudes;
   const Vector3d phase_slope = 2 * pi * at.slope;
   const double twice = 4 * pi * at.turns, a = at.amplitude;
-  const Vector3d climb = 0.25 * a * (std::sin(twice) * amplitude_slope + a * std::cos(twice) * phase_slope);
-  return {0.125 * a * a * std::sin(twice) * phase_slope, phase_slope * climb.transpose()};
+  const double slope = a * phase_slope.norm(), share = slope > 2 ? 0.5 / (slope * slope) : 0.125;
+  const Vector3d climb =
+      2 * share * a * (std::sin(twice) * amplitude_slope + a * std::cos(twice) * phase_slope);
+  return {share * a * a * std::sin(twice) * phase_slope, phase_slope * climb.transpose()};
 }
 
 }  // namespace

@@ -212,20 +212,21 @@ Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms
   return sum;
 }
 
+// With v₂'s ⅛ cloth is stretched alike all along a wave, but beyond a slope of 2 places along it would pass
+// each other: d(x + c s² sin 2φ/k)/dx = 1 + 2 c s² cos 2φ is below 0 at the flanks where c > 1/(2s²).
+double tangential_shift(double slope) {
+  return slope > 2 ? 0.5 / (slope * slope) : 0.125;
+}
+
 shell::Positions displaced(const FineField& field, bool with_v2) {
-  // (19) is for shallow waves. Cloth of which sine waves of any slope a|∇φ| take up the length shifts along
-  // the surface by a²|∇φ|/8 where they are shallow and by no more than max |1 − cos φ − 2φ/π| a where they
-  // are steep: where the base surface is all but collapsed, and ∇φ without bounds.
-  constexpr double most_shift = 0.2105;
   shell::Positions result = field.positions;
   for (Index v = 0; v < result.cols(); ++v) {
     const double a = field.amplitude[v], phase = field.phase[v];
     if (!(a > 0)) continue;
-    result.col(v) += a * std::cos(phase) * field.normals.col(v);
     const double slope = a * field.gradient.col(v).norm();
-    if (with_v2 && slope > 0)
-      result.col(v) +=
-          std::min(slope / 8, most_shift) * a / slope * std::sin(2 * phase) * a * field.gradient.col(v);
+    result.col(v) += a * std::cos(phase) * field.normals.col(v);
+    if (with_v2)
+      result.col(v) += tangential_shift(slope) * std::sin(2 * phase) * a * a * field.gradient.col(v);
     if (field.lean.cols() > 0) result.col(v) += a * std::sin(phase) * field.lean.col(v);
   }
   return result;

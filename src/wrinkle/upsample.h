@@ -50,9 +50,12 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
 Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms>& forms, double poisson,
                          const CoarseField& field);
 
-// r_b + a sin φ v + (a²/8) sin 2φ ∇φ + a cos φ n (19): positions, metres; with_v2: whether with the third
-// term, which is not longer than steep waves shift cloth (.21 a, reached at a|∇φ| = 1.7). The second is there
-// where the field has `lean`.
+// Of a²∇φ sin 2φ, how much cloth shifts along the surface under waves of slope a|∇φ|: ⅛ (19), but beyond a
+// slope of 2 so much less that cloth just stays in order.
+double tangential_shift(double slope);
+
+// r_b + a sin φ v + tangential_shift a² sin 2φ ∇φ + a cos φ n (19): positions, metres; with_v2: whether with
+// the third term. The second is there where the field has `lean`.
 shell::Positions displaced(const FineField& field, bool with_v2 = true);
 
 // Unit normals of a mesh, the mean of the faces' round a vertex by area.

@@ -161,6 +161,9 @@ TEST_F(CarriedFields, AMissingOrForeignFieldIsNamed) {
               HasSubstr("field_0003.ply: its vertex 1 is not on the model"));
   EXPECT_THAT(complaint("[bias]\nfield = \"none/field_####.ply\"\n" + direct),
               HasSubstr("there is no folder"));
+  // The texts of Chen et al. may be the frames' fields too.
+  EXPECT_THAT(complaint("[bias]\nfield = \"cloth_####_amplitude_rest.txt\"\n" + direct),
+              HasSubstr("no file fits this pattern"));
 }
 
 TEST_F(CarriedFields, StrengthAndSelectionCountForThemToo) {

@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 #include <tuple>
+#include <vector>
 
 namespace plisse::shell {
 namespace {

@@ -59,24 +59,7 @@ TEST_F(Wrinkle, ScenesAreDrapedAsDrapeDoes) {
 
 // Paper: 46, 46, 47 waves on irregular meshes of 180, 344 and 688 vertices, over 180 without v₁; an
 // independent one-dimensional optimum: 44.
-// The paper's five sizes of mesh, of which it has 46, 46, 47, 46, 45 waves; by one-dimensional
-// calculation 44.
-TEST_F(Wrinkle, TwistedCylinderOnFiveMeshesOfThreeSeeds) {
-  for (const char* vertices : {"180", "344", "688", "1309", "2543"})
-    for (const char* seed : {"1", "2", "3"}) {
-      // Fine ones differ by nothing, and take longest.
-      if (std::string(vertices).size() > 3 && std::string(seed) != "1") continue;
-      const Outcome outcome =
-          plisse({"wrinkle", "--example", "twisted-cylinder", "--vertices", vertices, "--seed", seed, "-o",
-                  file("field.ply"), "--json", file("report.json"), "-q"});
-      ASSERT_EQ(outcome.code, 0) << outcome.err;
-      // The number asked for: sides hold whole edges, so that the coarsest can miss by a row.
-      EXPECT_NEAR(report()["vertices"].get<double>(), std::stod(vertices),
-                  std::max(4.0, .015 * std::stod(vertices)));
-      // 41 to 45 but for one of the coarsest, which has 40 (docs/wrinkle.md says why).
-      EXPECT_NEAR(std::round(report()["waves"].get<double>()), 43, std::string(vertices) == "180" ? 3 : 2)
-          << vertices << ", seed " << seed;
-    }
+TEST_F(Wrinkle, TwistedCylinderWithoutV1) {
   const Outcome without = plisse({"wrinkle", "--example", "twisted-cylinder", "--without", "v1", "-o",
                                   file("field.ply"), "--json", file("report.json"), "-q"});
   ASSERT_EQ(without.code, 0) << without.err;
