@@ -189,8 +189,10 @@ class Kit:
         self.keep(name)
 
     def provenance(self):
-        """A sentence for under a table of times: the commands, the day, the machine."""
-        return '; '.join(f'`{line}`' for line in self.script if line.startswith(('plisse', 'tools/'))) + f': {self.began}'
+        """A sentence for under a table of times: the commands (their file where they are many), the day, the machine."""
+        lines = list(dict.fromkeys(f'`{line}`' for line in self.script if line.startswith(('plisse', 'tools/'))))
+        commands = '; '.join(lines) if len(lines) <= 3 else f'Commands: [{self.recipe.name}.sh](figures/{self.recipe.name}.sh)'
+        return f'{commands}: {self.began}'
 
     def table(self, name, header, rows, page=None, note=''):
         """docs/figures/NAME.csv, and as Markdown between the table's marks in `page` of docs/."""
