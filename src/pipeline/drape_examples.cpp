@@ -188,7 +188,8 @@ DrapeScene twisted_cylinder_of(const FlatMesh& mesh) {
 }
 
 DrapeScene twisted_cylinder(const Wanted& wanted) {
-  return twisted_cylinder_of(rectangle(2 * pi * cylinder_radius, cylinder_height, wanted, 2 * cylinder_height));
+  return twisted_cylinder_of(
+      rectangle(2 * pi * cylinder_radius, cylinder_height, wanted, 2 * cylinder_height));
 }
 
 DrapeScene regular_cylinder(const Wanted& wanted, Diagonals diagonals) {
