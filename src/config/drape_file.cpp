@@ -405,6 +405,7 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
     for (const char* key : {"vertices", "seed"}) needs(key, !mesh, "on a 'mesh', which is taken as it is");
     needs("plane", panel, "without 'panel'");
   }
+  needs("residual", !settings.stvk, "on a stvk shell, which keeps all of its stiffness when it is slack");
   complaints.throw_if_any();
   return settings;
 }

@@ -114,6 +114,8 @@ TEST(DrapeFile, KeysThatWouldHaveNoEffectAreRefused) {
               AllOf(HasSubstr("c.toml:3:8: key 'wrap': has no effect without 'garment'"),
                     HasSubstr("c.toml:4:10: key 'pieces': has no effect without 'garment'")));
   EXPECT_THAT(complaints("garment = \"p.toml\"\nplane = \"xz\"\n"), HasSubstr("c.toml:3:9: key 'plane'"));
+  EXPECT_THAT(complaints("panel = [1, 1]\nmodel = \"stvk\"\nresidual = 0.1\n"),
+              HasSubstr("c.toml:4:12: key 'residual': has no effect on a stvk shell"));
   EXPECT_EQ(complaints("garment = \"p.toml\"\nwrap = 1\npieces = \"a\"\nvertices = 100\nseed = 3\n"), "");
   EXPECT_EQ(complaints("panel = [1, 1]\nvertices = 100\nseed = 3\nplane = \"xz\"\n"), "");
 }
