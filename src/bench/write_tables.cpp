@@ -21,6 +21,7 @@ const char* name_of(Clock clock) {
 }  // namespace
 
 std::string duration_text(double seconds) {
+  if (seconds >= 100) return fmt::format("{:.0f} s", seconds);
   if (seconds >= 1) return fmt::format("{:.3g} s", seconds);
   if (seconds >= 1e-3) return fmt::format("{:.3g} ms", 1e3 * seconds);
   return fmt::format("{:.3g} µs", 1e6 * seconds);
