@@ -63,7 +63,7 @@ TEST_F(WrinkleScenesSlow, TwistedCylinderOnRegularMeshes) {
 }
 
 // Paper: 25; experiment (Wong and Pellegrino 2006): 19; ARCSim: 26. A way from one end to the other meets the
-// fans in the corners as well, hence three more than a level line does (docs/wrinkle.md).
+// fans in the corners as well, hence one more than a level line does (docs/wrinkle.md).
 TEST_F(WrinkleScenesSlow, ShearedRectangle) {
   // Draped frame by frame: in one step its base surface does not come to rest to the last digit.
   const std::string base = (folder_ / "base.ply").string();
