@@ -10,6 +10,7 @@
 
 #include "config/scene_file.h"
 #include "io/wrinkle_field.h"
+#include "pipeline.h"
 #include "pipeline/displace.h"
 #include "pipeline/history.h"
 #include "pipeline/outside.h"
@@ -205,6 +206,50 @@ TEST_F(CarriedFields, AlongAWaveClothIsStretchedEvenly) {
   EXPECT_NEAR(0.5 * (least + most), 1 + steepness * steepness / 4, std::pow(steepness, 4) / 16);
   EXPECT_LT(most - least, std::pow(steepness, 4) / 8);
   EXPECT_LT(most - least, 0.05 * steepness * steepness / 2);
+}
+
+// Steeper than a slope of 2 they would fold over themselves: along a wave cloth stays in order, and the
+// shader moves it as the reference does.
+TEST_F(CarriedFields, SteepWavesKeepClothInOrder) {
+  write_sheets(1);
+  for (const double steepness : {1.5, 3.0, 30.0}) {
+    const double high = steepness * length / (2 * pi * 5);
+    io::write_wrinkle_field(folder_ / "field.ply", field(1, high, 5));
+    History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
+    run.at(1);
+    const Displacement displacement = halved(run.scene, 6);
+    const DisplacedSurface moved = displacement.at(run.stepper.surface());
+    const auto& mesh = displacement.mesh();
+    double backward = 0, forward = 0;  // of steps along x, in their length
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto at = [&](std::size_t k) { return mesh.vertices[mesh.triangles[k]].position; };
+      const std::uint32_t p = at(i), q = at(i % 3 == 2 ? i - 2 : i + 1);
+      const double step = moved.base[q].x - moved.base[p].x;
+      if (std::abs(moved.base[p].y - moved.base[q].y) > 1e-9) continue;
+      const double share = (moved.positions[q].x - moved.positions[p].x) / step;
+      backward = std::min(backward, share);
+      forward = std::max(forward, share);
+    }
+    // 1 + 2 c s² cos 2φ, c s² = min(s²/8, ½); chords of an eightieth of a wave see less of it.
+    const double bulge = std::min(steepness * steepness / 4, 1.0);
+    EXPECT_NEAR(forward, 1 + bulge, 0.01) << steepness;
+    EXPECT_GE(backward, -1e-6) << steepness;  // rounding of places
+  }
+}
+
+TEST_F(CarriedFields, TheShaderMovesSteepWavesAsTheReferenceDoes) {
+  write_sheets(1);
+  for (const double steepness : {1.5, 3.0, 30.0}) {
+    io::write_wrinkle_field(folder_ / "field.ply", field(1, steepness * length / (2 * pi * 5), 5));
+    RenderRequest request;
+    request.scene = scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n");
+    request.scene.output.width = request.scene.output.height = 64;
+    const VerifyReport report = verify(request, {});
+    for (const char* part : {"displacement", "displacement.relief", "displacement.normal"}) {
+      ASSERT_TRUE(report.passes.contains(part)) << part;
+      EXPECT_TRUE(report.passes.at(part).ok) << part << " " << steepness;
+    }
+  }
 }
 
 // --- beside a body
