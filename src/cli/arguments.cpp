@@ -56,6 +56,11 @@ std::vector<int> whole_numbers(const std::string& option, const std::string& tex
   return numbers;
 }
 
+void refuse_without_effect(std::initializer_list<GivenOption> options, const std::string& why) {
+  for (const GivenOption& option : options)
+    if (option.given) throw Error(ExitCode::bad_input, fmt::format("{}: has no effect {}", option.name, why));
+}
+
 CommonArguments::CommonArguments(CLI::App& app) {
   app.add_option("--threads", threads_, "Threads of the CPU to use at most")->type_name("N");
   app.add_flag("-q,--quiet", quiet_, "Errors only");

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <deque>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +27,14 @@ double positive_number(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);
 // Several whole numbers, separated by commas.
 std::vector<int> whole_numbers(const std::string& option, const std::string& text, int low, int high);
+
+// Throws Error(bad_input) that names the first of these options that was given: its text goes on "has no
+// effect …".
+struct GivenOption {
+  const char* name;
+  bool given;
+};
+void refuse_without_effect(std::initializer_list<GivenOption> options, const std::string& why);
 
 // --threads, -q, -v, --json.
 class CommonArguments {

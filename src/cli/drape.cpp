@@ -209,17 +209,13 @@ int run_costs(Arguments arguments) {
   if (arguments.example.empty() || output.extension() != ".svg")
     throw Error(ExitCode::bad_input,
                 "--cost solves an --example at sizes of its own, and writes -o FILE.svg");
-  const std::pair<const char*, bool> senseless[] = {{"--vertices", !arguments.vertices.empty()},
-                                                    {"--start", !arguments.start.empty()},
-                                                    {"--frames", !arguments.frames.empty()},
-                                                    {"--steps", !arguments.steps.empty()},
-                                                    {"--cache-dir", arguments.cache.given()}};
-  for (const auto& [option, given] : senseless)
-    if (given)
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: has no effect beside --cost, which solves anew at sizes of its own, from "
-                              "the example's start to full load in one go",
-                              option));
+  refuse_without_effect({{"--vertices", !arguments.vertices.empty()},
+                         {"--start", !arguments.start.empty()},
+                         {"--frames", !arguments.frames.empty()},
+                         {"--steps", !arguments.steps.empty()},
+                         {"--cache-dir", arguments.cache.given()}},
+                        "beside --cost, which solves anew at sizes of its own, from the example's start to "
+                        "full load in one go");
   check_writable(output);
   install_interrupt_handlers();
   const auto costs = drape_costs(

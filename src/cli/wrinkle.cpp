@@ -313,16 +313,15 @@ int run_costs(Arguments arguments, const WrinkleRequest& request) {
   if (arguments.example.empty() || request.output.extension() != ".svg")
     throw Error(ExitCode::bad_input,
                 "--cost solves an --example at sizes of its own, and writes -o FILE.svg");
-  const std::pair<const char*, bool> senseless[] = {
-      {"--vertices", !arguments.vertices.empty()},   {"--frames", !arguments.frames.empty()},
-      {"--cache", !arguments.cache.empty()},         {"--fade", arguments.fade != "6"},
-      {"--hysteresis", arguments.hysteresis != "9"}, {"--mesh", !arguments.mesh.empty()},
-      {"--evaluate", !arguments.evaluate.empty()},   {"--cache-dir", arguments.solved.given()}};
-  for (const auto& [option, given] : senseless)
-    if (given)
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format("{}: has no effect beside --cost, which solves anew at sizes of its own", option));
+  refuse_without_effect({{"--vertices", !arguments.vertices.empty()},
+                         {"--frames", !arguments.frames.empty()},
+                         {"--cache", !arguments.cache.empty()},
+                         {"--fade", arguments.fade != "6"},
+                         {"--hysteresis", arguments.hysteresis != "9"},
+                         {"--mesh", !arguments.mesh.empty()},
+                         {"--evaluate", !arguments.evaluate.empty()},
+                         {"--cache-dir", arguments.solved.given()}},
+                        "beside --cost, which solves anew at sizes of its own");
   check_writable(request.output);
   install_interrupt_handlers();
   const auto costs = wrinkle_costs(
