@@ -8,9 +8,9 @@ path = "stretched-sheet_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 azimuth = 20
 elevation = 40
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -28,9 +28,9 @@ path = "sheared-rectangle_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 azimuth = 0
 elevation = 5
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -48,8 +48,8 @@ path = "twisted-cylinder_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 18
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -67,8 +67,8 @@ path = "torus_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 45
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -86,8 +86,8 @@ path = "disk-balloon_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 35
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -105,8 +105,8 @@ path = "teabag_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 45
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -124,8 +124,8 @@ path = "sphere-drape_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 20
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25
@@ -143,8 +143,8 @@ path = "skirt_waves.ply"
 [wrinkles]
 strength = 0
 [camera]
-focal_length = 85
 elevation = 8
+focal_length = 85
 [light]
 key_azimuth = -65
 key_elevation = 25

@@ -1,4 +1,6 @@
 """The published scenes, each draped and wrinkled by one command: a picture of every one, and their numbers beside the papers'."""
+from recipes.kit import cloth_look
+
 MAKES = ['fields.png', 'fields.csv', 'fields_meshes.csv']
 MEASURES = True
 
@@ -13,17 +15,6 @@ SCENES = (
     ('sphere-drape', 'round the ball', 'elevation = 20', 'folds from the ball to the hem, top smooth'),
     ('skirt', 'their dress of 1,333: 17 s in the solver', 'elevation = 8', 'a fold for each gather, from waist to hem; steep at the sides, where the base surface is all but collapsed'),
 )
-LOOK = '''[camera]
-focal_length = 85
-{camera}
-[light]
-key_azimuth = -65
-key_elevation = 25
-shadows = true
-[shading]
-colour = "#c9a66b"
-roughness = 0.45
-'''
 
 
 def make(kit):
@@ -32,9 +23,9 @@ def make(kit):
         vertices = ('--vertices', 1300) if name == 'skirt' else ()
         kit.plisse('drape', '--example', name, *vertices, '-o', f'{name}.ply')
         report = kit.plisse('wrinkle', f'{name}.ply', '-o', f'{name}_field.ply', '--mesh', f'{name}_waves.ply')
-        rows.append([name, paper, f'{report["waves"]:.3g}, {1e3 * report["max_amplitude_m"]:.3g} mm', f'{report["vertices"]:,}',
+        rows.append([' '.join(str(word) for word in (name, *vertices)), paper, f'{report["waves"]:.3g}, {1e3 * report["max_amplitude_m"]:.3g} mm', f'{report["vertices"]:,}',
                      f'{report["energy_whole_periods_J"]:.4g}', f'{report["solve_s"]:.2g}', f'{kit.spent[1]:.2g}', looks])
-        kit.write(f'{name}.toml', f'[model]\npath = "{name}_waves.ply"\n[wrinkles]\nstrength = 0\n' + LOOK.format(camera=camera))
+        kit.write(f'{name}.toml', f'[model]\npath = "{name}_waves.ply"\n[wrinkles]\nstrength = 0\n' + cloth_look(camera, ground=False))
         kit.plisse('render', f'{name}.toml', '-o', f'{name}.png', '--size', '800x640')
         pictures.append(f'{name}.png')
     kit.keep_sheet([pictures[:4], pictures[4:]], 'fields.png')
@@ -48,4 +39,4 @@ def make(kit):
             found.append(kit.plisse('wrinkle', 'tube.ply', '-o', 'tube_field.ply'))
         rows.append([f'{wanted:,}', ', '.join(str(report['vertices']) for report in found), ', '.join(f'{report["waves"]:.3g}' for report in found),
                      ', '.join(f'{report["energy_whole_periods_J"]:.3g}' for report in found)])
-    kit.table('fields_meshes', ['paper\'s vertices', 'seeds 1, 2, 3: vertices', 'waves', 'J'], rows, 'wrinkle.md')
+    kit.table('fields_meshes', ['paper\'s vertices', 'seeds 1, 2, 3: vertices', 'waves', 'J'], rows, 'wrinkle.md', kit.provenance())

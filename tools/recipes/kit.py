@@ -60,6 +60,21 @@ def machine():
             f'when it began, commit {commit}.')
 
 
+def cloth_look(camera='elevation = 18', ground=True):
+    """A scene's tables behind [model]: plain cloth in raking light, which shows what waves there are."""
+    return f'''[camera]
+{camera}
+focal_length = 85
+[light]
+key_azimuth = -65
+key_elevation = 25
+shadows = true
+[shading]
+colour = "#c9a66b"
+roughness = 0.45
+''' + ('[output]\nground = true\n' if ground else '')
+
+
 def read_png(data):
     """The rows of a PNG of 8-bit RGB or RGBA, three bytes a pixel."""
     chunks, at = {}, 8

@@ -1,21 +1,9 @@
 """A twisted tube: its base surface, and the waves that were solved on it."""
+from recipes.kit import cloth_look
+
 MAKES = ['twisted_base.png', 'twisted.png']
 
-SCENE = '''[model]
-path = "base.ply"
-[camera]
-elevation = 18
-focal_length = 85
-[light]
-key_azimuth = -65
-key_elevation = 25
-shadows = true
-[shading]
-colour = "#c9a66b"
-roughness = 0.45
-[output]
-ground = true
-'''
+SCENE = '[model]\npath = "base.ply"\n' + cloth_look()
 
 
 def make(kit):
