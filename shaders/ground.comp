@@ -3,6 +3,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rg16f) uniform restrict writeonly image2D result;
 uniform int size;
+uniform ivec4 area;   // what can differ from zero: first column and row, and those after the last
 #if defined(CAST)
 layout(binding = 2) uniform sampler2DShadow shadow_map;
 layout(binding = 4) uniform sampler2D height_map;  // lowest surface above the floor, 1 = none
@@ -13,8 +14,8 @@ uniform vec3 map_across;
 uniform vec3 map_along;
 uniform float heights_per_reach;   // full range of the height map over the reach of contact
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= size || at.y >= size) return;
+    ivec2 at = area.xy + ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= area.z || at.y >= area.w) return;
     vec2 place = (vec2(at) + 0.5) / float(size) * map_origin.w;
     vec3 x = map_origin.xyz + place.x * map_across + place.y * map_along;
     vec3 p = (shadow_matrix * vec4(x, 1.0)).xyz, q = (height_matrix * vec4(x, 1.0)).xyz;
@@ -28,8 +29,8 @@ layout(binding = 3) uniform sampler2D source;
 uniform ivec2 axis;
 uniform vec2 widths;   // standard deviations in texels
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= size || at.y >= size) return;
+    ivec2 at = area.xy + ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= area.z || at.y >= area.w) return;
     vec2 sum = vec2(0.0), total = vec2(0.0);
     int reach = int(ceil(2.5 * max(widths.x, widths.y)));
     for (int i = -reach; i <= reach; ++i) {

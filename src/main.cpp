@@ -5,11 +5,8 @@
 #include <exception>
 #include <new>
 
-#ifdef __linux__
-#include <malloc.h>
-#endif
-
 #include "base/error.h"
+#include "base/heap.h"
 #include "cli/command.h"
 
 namespace {
@@ -25,13 +22,7 @@ int main(int argc, char** argv) {
   // A closed pipe and a file that may not grow are errors of writing, with a text and a code, not signals.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-#ifdef __GLIBC__
-  // Every frame needs the same large buffers again. Handed back to the kernel between frames they would be
-  // mapped and zeroed page by page each time, which was a fifth of a run's CPU time. 32 MiB is the most that
-  // the C library takes as a threshold; up to 1 GiB of what is free stays with the process.
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-#endif
+  plisse::prepare_heap();
   try {
     return plisse::cli::run(argc, argv);
   } catch (const plisse::Error& error) {

@@ -16,7 +16,7 @@ Film::Film(const SceneSettings& settings, const std::string& name, bool software
       software(software_renderer) {}
 
 void Film::draw(const passes::SurfaceBuffers& surface) {
-  pass.draw_resolved(surface, view, target, software);
+  pass.draw(surface, view, target, software);
   finish();
 }
 

@@ -181,7 +181,7 @@ passes::Look bare(passes::Look look) {
 }
 
 void draw(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& target) {
-  pass.draw_resolved(rig.surface(), subject.view, target, rig.software());
+  pass.draw(rig.surface(), subject.view, target, rig.software());
   finish();
 }
 

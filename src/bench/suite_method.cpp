@@ -81,7 +81,7 @@ class Methods {
     const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << setup_.pick(1, 3, 3)));
     passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
     const Sample began = now();
-    pass.draw_resolved(stepper.surface(), scene.view(frame), target, context_.info().software);
+    pass.draw(stepper.surface(), scene.view(frame), target, context_.info().software);
     finish();
     if (as_geometry) displacement.at(stepper.surface());
     seconds += (now() - began).wall_s;

@@ -42,7 +42,7 @@ class Geometry {
   // A frame of it: moved and drawn.
   void draw() {
     displacement_.run(film_.rig.surface(), buffers_);
-    pass_->draw_resolved(buffers_, film_.view, film_.target, film_.software);
+    pass_->draw(buffers_, film_.view, film_.target, film_.software);
     finish();
   }
   Shot shot() {

@@ -11,6 +11,7 @@ namespace plisse::gpu {
 struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;  // pixels, from the lower left corner
   bool empty() const { return width <= 0 || height <= 0; }
+  bool operator==(const Rectangle&) const = default;
   // The least that holds both; neither may be empty.
   Rectangle united(const Rectangle& other) const {
     const int left = std::min(x, other.x), low = std::min(y, other.y);

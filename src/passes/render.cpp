@@ -90,6 +90,31 @@ struct GroundFrame {
   }
 };
 
+// The texels of the ground map that the model can darken, with `reach` more on each side for the blur: those of the
+// shadow of the sphere that its depth maps hold, and of what is below it. All others are zero.
+gpu::Rectangle darkened_texels(const GroundFrame& ground, const View& view, int size, int reach) {
+  const glm::dvec3 light = view.lights[0].direction;
+  const double radius = 1.02 * view.bounds_radius, texel = ground.side / size;
+  const glm::dvec3 foot = view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, view.up)) * view.up;
+  const double climb = glm::dot(light, view.up);
+  // A light at the height of the floor throws no end of shadow; one below it is left to the depth map.
+  if (climb < 1e-3) return {0, 0, size, size};
+  const glm::dvec3 shadow =
+      view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, view.up)) / climb * light;
+  const auto range = [&](const glm::dvec3& axis) {
+    const double slant = glm::dot(light, axis) / climb, from = glm::dot(ground.origin, axis);
+    const double below = glm::dot(foot, axis) - from, thrown = glm::dot(shadow, axis) - from;
+    const double low = std::min(below - radius, thrown - radius * std::sqrt(1 + slant * slant));
+    const double high = std::max(below + radius, thrown + radius * std::sqrt(1 + slant * slant));
+    // Two texels for the depth maps' own bilinear reading.
+    return std::pair(std::clamp(static_cast<int>(std::floor(low / texel)) - reach - 2, 0, size),
+                     std::clamp(static_cast<int>(std::ceil(high / texel)) + reach + 2, 0, size));
+  };
+  const auto [left, right] = range(ground.across);
+  const auto [low, high] = range(ground.along);
+  return {left, low, right - left, high - low};
+}
+
 }  // namespace
 
 RenderPass::RenderPass(const Look& look, const Profile& profile, std::vector<DrawPart> parts,
@@ -232,10 +257,21 @@ void RenderPass::draw_shadow_map(const SurfaceBuffers& surface, const View& view
 
 void RenderPass::draw_ground_map(const View& view) {
   const GroundFrame ground(view);
+  const double texel = ground.side / ground_size;
+  const glm::vec2 widths(std::max(0.7, 0.035 * view.bounds_radius / texel),
+                         std::max(0.7, 0.06 * view.bounds_radius / texel));
+  const int reach = static_cast<int>(std::ceil(2.5F * std::max(widths.x, widths.y)));
+  const gpu::Rectangle area = darkened_texels(ground, view, ground_size, reach);
+  if (area != ground_area_) {
+    for (unsigned texture : ground_textures_) glClearTexImage(texture, 0, GL_RG, GL_FLOAT, nullptr);
+    ground_area_ = area;
+  }
+  if (area.empty()) return;
   const auto run = [&](const gpu::Program& program, unsigned result) {
     uniform(program, "size", ground_size);
+    glUniform4i(program.uniform("area"), area.x, area.y, area.x + area.width, area.y + area.height);
     glBindImageTexture(0, result, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG16F);
-    glDispatchCompute(ground_size / 8, ground_size / 8, 1);
+    glDispatchCompute(static_cast<GLuint>(area.width + 7) / 8, static_cast<GLuint>(area.height + 7) / 8, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   };
   ground_cast_.use();
@@ -251,10 +287,7 @@ void RenderPass::draw_ground_map(const View& view) {
           static_cast<float>(range / (contact_reach * view.bounds_radius)));
   run(ground_cast_, ground_textures_[0]);
   ground_blur_.use();
-  const double texel = ground.side / ground_size;
-  uniform(ground_blur_, "widths",
-          glm::vec2(std::max(0.7, 0.035 * view.bounds_radius / texel),
-                    std::max(0.7, 0.06 * view.bounds_radius / texel)));
+  uniform(ground_blur_, "widths", widths);
   for (int axis = 0; axis < 2; ++axis) {
     glBindTextureUnit(3, ground_textures_[static_cast<std::size_t>(axis)]);
     glUniform2i(ground_blur_.uniform("axis"), axis == 0, axis == 1);
@@ -276,8 +309,10 @@ void RenderPass::draw_backdrop(const View& view) {
   uniform(backdrop_, "map_along", ground.along);
   glBindTextureUnit(3, ground_textures_[0]);
   glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // under what is there, whose colours are premultiplied
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glEnable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
 }
 
 gpu::Program RenderPass::make_program(const std::vector<std::string>& files, gpu::Defines defines,
@@ -382,24 +417,21 @@ gpu::Rectangle RenderPass::choose(const SurfaceBuffers& surface, const View& vie
 }
 
 void RenderPass::clear(bool with_depth) {
-  const glm::vec4 colour = look_.transparent ? glm::vec4(0) : wide(look_.background, 1);
+  const glm::vec4 colour = look_.transparent || look_.ground ? glm::vec4(0) : wide(look_.background, 1);
   glClearColor(colour.r, colour.g, colour.b, colour.a);
   glDepthMask(GL_TRUE);
   glClear(with_depth ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT);
 }
 
-void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target) {
+void RenderPass::draw_all(const SurfaceBuffers& surface, const View& view, const gpu::Target& target) {
   shown_.assign(parts_.size(), {});
   left_out_ = {};
   draw(surface, view, target, {0, 0, target.width(), target.height()});
 }
 
-bool RenderPass::draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
-                               bool software) {
-  gpu::Rectangle area = choose(surface, view, target, software);
-  if (software && !area.empty() && target.samples() == 1) area = {0, 0, target.width(), target.height()};
-  draw(surface, view, target, area);
-  target.resolve(area);
+bool RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
+                      bool software) {
+  draw(surface, view, target, choose(surface, view, target, software));
   return !left_out_.nothing_in_view;
 }
 
@@ -411,18 +443,25 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   if (look_.ground) draw_ground_map(view);
   write_scene(view);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  const bool backdrop = look_.ground && !look_.transparent;
-  if (area.width < target.width() || area.height < target.height()) {
+  if (target.samples() > 1 && (area.width < target.width() || area.height < target.height())) {
     target.bind_resolved();
     clear(false);
-    if (backdrop) draw_backdrop(view);
   }
-  if (area.empty()) return;
   target.bind();
+  if (!area.empty() || target.samples() == 1) draw_surface(surface, view, area);
+  target.resolve(area);
+  if (look_.ground && !look_.transparent) {
+    target.bind_resolved();
+    draw_backdrop(view);
+  }
+  gpu::check("while rendering");
+}
+
+void RenderPass::draw_surface(const SurfaceBuffers& surface, const View& view, const gpu::Rectangle& area) {
   clear(true);
+  if (area.empty()) return;
   glEnable(GL_SCISSOR_TEST);
   glScissor(area.x, area.y, area.width, area.height);
-  if (backdrop) draw_backdrop(view);
   glEnable(GL_DEPTH_TEST);
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
   draw_parts(surface_, false, true);
@@ -444,7 +483,6 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   glDisable(GL_SCISSOR_TEST);
-  gpu::check("while rendering");
 }
 
 void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,

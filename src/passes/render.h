@@ -79,7 +79,7 @@ enum class Aov {
   tension = 5,
   depth = 6,
   object = 7,  // 1 + the number of the part
-  beauty = 8,  // the picture in linear light; by draw_resolved, not draw_aov
+  beauty = 8,  // the picture in linear light; by draw, not draw_aov
 };
 
 class RenderPass {
@@ -90,15 +90,14 @@ class RenderPass {
   RenderPass(const RenderPass&) = delete;
   RenderPass& operator=(const RenderPass&) = delete;
 
-  // Clears and draws everything into `target`, not yet resolved, and leaves nothing out.
-  void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
-  // The same, resolved. A software renderer pays for every multisampled pixel: there (`software`) the
-  // backdrop is drawn with one sample, and with four only the rectangle that the surface covers. The picture
-  // is the same but for rare roundings of the backdrop to the next of 255 steps. False where it was found
-  // that nothing of the surface is in view: then only what is behind it, and its shadow, was drawn.
-  bool draw_resolved(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
-                     bool software);
-  // By the last draw_resolved.
+  // Clears, draws, resolves, and puts the backdrop under it. The backdrop takes one sample a pixel, as nothing of
+  // it has an edge. A software renderer pays for every multisampled pixel: there (`software`) only the rectangle
+  // that the surface covers is drawn with four; the picture is the same. False where it was found that nothing of
+  // the surface is in view: then only what is behind it, and its shadow, was drawn.
+  bool draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, bool software);
+  // The same picture with nothing left out: what `draw` is held against.
+  void draw_all(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
+  // By the last draw.
   const LeftOut& left_out() const { return left_out_; }
   // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
@@ -117,6 +116,7 @@ class RenderPass {
  private:
   void draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
             const gpu::Rectangle& area);
+  void draw_surface(const SurfaceBuffers& surface, const View& view, const gpu::Rectangle& area);
   void write_scene(const View& view);
   void bind_surface(const SurfaceBuffers& surface);
   void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
@@ -156,6 +156,7 @@ class RenderPass {
   unsigned vertex_array_ = 0;
   unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;
   std::array<unsigned, 2> ground_textures_{};
+  gpu::Rectangle ground_area_{0, 0, -1, -1};  // what of them is not zero
   glm::dmat4 shadow_matrix_{1}, top_matrix_{1};
   double shadow_texel_ = 0;
   std::vector<Shown> shown_;  // one a part

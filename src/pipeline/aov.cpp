@@ -136,7 +136,7 @@ void AovWriter::write_beauty(const passes::SurfaceBuffers& surface, const passes
                              const std::string& stem, const std::string& hash, Picture& frame) {
   const auto& output = scene_.settings.output;
   if (!beauty_) beauty_.emplace(output.width, output.height, output.samples, gpu::Target::Format::rgba32f);
-  pass_.draw_resolved(surface, view, *beauty_, false);
+  pass_.draw(surface, view, *beauty_, false);
   io::write_exr(stem + ".exr", output.width, output.height, 4, beauty_->read_rgba32f());
   write_whole_file(stem + ".png", frame.png(hash).first);
 }

@@ -123,7 +123,7 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
     }
     const gpu::Target& target = this->target();
     timer_.begin("render");
-    pass_.draw_resolved(drawn(), view, target, software_);
+    pass_.draw(drawn(), view, target, software_);
     timer_.end();
     const passes::LeftOut& left_out = pass_.left_out();
     out_of_view_ += left_out.nothing_in_view ? 1 : 0;

@@ -77,7 +77,7 @@ passes::Look PictureComparison::look() const {
 io::Image PictureComparison::drawn(const passes::SurfaceBuffers& surface, const passes::View& view,
                                    bool transparent) {
   render_.set_transparent(transparent);
-  render_.draw(surface, view, target_);
+  render_.draw_all(surface, view, target_);
   return {target_.width(), target_.height(), target_.read_rgba8()};
 }
 

@@ -46,7 +46,7 @@ Sample film_without_files(const SceneSettings& settings, const Effort& effort, b
   Sample begin;
   for (int frame = 1; frame <= frames; ++frame) {
     stepper.advance_to(scene.step_of_frame(frame));
-    pass.draw_resolved(stepper.surface(), scene.view(frame), target, software);
+    pass.draw(stepper.surface(), scene.view(frame), target, software);
     if (read_back) {
       target.read_rgba8();
     } else {

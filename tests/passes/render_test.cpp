@@ -110,8 +110,7 @@ struct Stage {
     const Passes surface = passes();
     RenderPass pass(look, make_profile(profile), parts, textures, "");
     const gpu::Target target(width, height_in_pixels, samples, gpu::Target::Format::srgb8);
-    pass.draw(surface.buffers, view, target);
-    target.resolve({0, 0, width, height_in_pixels});
+    pass.draw_all(surface.buffers, view, target);
     const auto bytes = target.read_rgba8();
     return {width, height_in_pixels, {bytes.begin(), bytes.end()}};
   }

@@ -45,10 +45,9 @@ class LeftOut : public test::OpenGlTest {
           some(width, height, samples, gpu::Target::Format::srgb8);
       passes::RenderPass pass(run.scene.look(), run.scene.profile, run.scene.draw_parts(),
                               run.scene.texture_levels(), "");
-      pass.draw(run.stepper.surface(), view, all);
-      all.resolve({0, 0, width, height});
+      pass.draw_all(run.stepper.surface(), view, all);
       EXPECT_EQ(pass.left_out().flat + pass.left_out().too_fine + pass.left_out().out_of_view, 0);
-      pass.draw_resolved(run.stepper.surface(), view, some, true);
+      pass.draw(run.stepper.surface(), view, some, true);
       EXPECT_EQ(all.read_rgba8(), some.read_rgba8()) << samples << " samples, frame " << frame;
       result = pass.left_out();
     }
@@ -156,7 +155,7 @@ TEST_F(LeftOut, WhereNoTextureIsThereIsNoParallax) {
     std::vector<std::vector<passes::TextureLevel>> textures;
     if (white) textures.push_back({{1, 1, {255, 255, 255, 255}}});
     passes::RenderPass pass(run.scene.look(), run.scene.profile, parts, textures, "");
-    pass.draw_resolved(run.stepper.surface(), view, target, true);
+    pass.draw(run.stepper.surface(), view, target, true);
     EXPECT_EQ(pass.left_out().untextured, white ? 0 : 3);
     return target.read_rgba8();
   };
