@@ -1,6 +1,7 @@
-// Why: every frame needs the same large buffers again. Handed back to the kernel between frames they would be mapped and
-// zeroed page by page each time, which was a fifth of a run's CPU time; and in pages of 4 KiB the first touch of a picture
-// of 1280 × 1024 with four samples takes 12,000 faults, which was a third of the time to the first frame.
+// Why: every frame needs the same large buffers again. Handed back to the kernel between frames they would be
+// mapped and zeroed page by page each time, which was a fifth of a run's CPU time; and in pages of 4 KiB the
+// first touch of a picture of 1280 × 1024 with four samples takes 12,000 faults, which was a third of the
+// time to the first frame.
 #include "base/heap.h"
 
 #include <cstdlib>
@@ -17,7 +18,7 @@ namespace plisse {
 
 void prepare_heap() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);             // large blocks from the heap too, where they are used again
+  mallopt(M_MMAP_MAX, 0);              // large blocks from the heap too, where they are used again
   mallopt(M_TRIM_THRESHOLD, 1 << 30);  // up to 1 GiB of what is free stays with the process
   // The heap's first part is address space alone until it is touched. Where it cannot be had (ulimit -v), the
   // heap grows as it always does.

@@ -3,8 +3,8 @@
 
 namespace plisse {
 
-// Lets the heap keep what is freed, and grow in large pages. For programs, once, at the start of main(): a library has no
-// business with its caller's heap. Where the C library is not glibc nothing happens.
+// Lets the heap keep what is freed, and grow in large pages. For programs, once, at the start of main(): a
+// library has no business with its caller's heap. Where the C library is not glibc nothing happens.
 void prepare_heap();
 
 }  // namespace plisse

@@ -41,13 +41,11 @@ const char* egl_error_text(EGLint code) {
   }
 }
 
-// epoxy ends the process when these are missing, so they are looked for before its first call.
+// epoxy ends the process when these are missing, so they are looked for before its first call. They stay
+// open: it wants them next.
 void require_library(const char* purpose, std::initializer_list<const char*> names, const char* package) {
   for (const char* name : names) {
-    if (void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL)) {
-      dlclose(handle);
-      return;
-    }
+    if (dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr) return;
   }
   throw Error(ExitCode::no_opengl,
               fmt::format("no usable OpenGL: {} ({}) is not installed; install the package {}",

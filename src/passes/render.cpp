@@ -90,8 +90,8 @@ struct GroundFrame {
   }
 };
 
-// The texels of the ground map that the model can darken, with `reach` more on each side for the blur: those of the
-// shadow of the sphere that its depth maps hold, and of what is below it. All others are zero.
+// The texels of the ground map that the model can darken, with `reach` more on each side for the blur: those
+// of the shadow of the sphere that its depth maps hold, and of what is below it. All others are zero.
 gpu::Rectangle darkened_texels(const GroundFrame& ground, const View& view, int size, int reach) {
   const glm::dvec3 light = view.lights[0].direction;
   const double radius = 1.02 * view.bounds_radius, texel = ground.side / size;

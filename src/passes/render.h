@@ -90,10 +90,10 @@ class RenderPass {
   RenderPass(const RenderPass&) = delete;
   RenderPass& operator=(const RenderPass&) = delete;
 
-  // Clears, draws, resolves, and puts the backdrop under it. The backdrop takes one sample a pixel, as nothing of
-  // it has an edge. A software renderer pays for every multisampled pixel: there (`software`) only the rectangle
-  // that the surface covers is drawn with four; the picture is the same. False where it was found that nothing of
-  // the surface is in view: then only what is behind it, and its shadow, was drawn.
+  // Clears, draws, resolves, and puts the backdrop under it. The backdrop takes one sample a pixel, as
+  // nothing of it has an edge. A software renderer pays for every multisampled pixel: there (`software`) only
+  // the rectangle that the surface covers is drawn with four; the picture is the same. False where it was
+  // found that nothing of the surface is in view: then only what is behind it, and its shadow, was drawn.
   bool draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, bool software);
   // The same picture with nothing left out: what `draw` is held against.
   void draw_all(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
