@@ -7,8 +7,12 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <queue>
+#include <utility>
 
 #include "mesh/triangle_tree.h"
 
@@ -136,8 +140,9 @@ struct Peak {
   double power = 0;
 };
 
-// A surface of area A with rims has its modes about π/√A apart, and a wave that does not end on one of them
-// stands in several, like the teeth of a comb: a bell in k as wide makes one hill of them.
+// A surface with rims has its modes up to π over its shorter side apart, and a wave that does not end on one
+// of them stands in several, like the teeth of a comb, at worst in every second: a bell in k as wide makes
+// one hill of them.
 std::vector<double> smoothed(const std::vector<double>& power, double longest, double width) {
   std::vector<double> result(power.size(), 0.0);
   const auto wavenumber = [&](int j) { return longest * std::sin(0.5 * pi * (j + 0.5) / grid); };
@@ -190,6 +195,95 @@ std::vector<VectorXd> filtered(const Sparse& x, const VectorXd& v, const std::ve
   return parts;
 }
 
+struct Rim {
+  double length = 0;
+  std::vector<double> distance;  // of each vertex, along edges; infinite where there is no rim
+};
+
+// Edges of one triangle only, and how far all vertices are from them (Dijkstra).
+Rim rim_of(const HeightField& field) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (std::size_t i = 0; i < field.triangles.size(); ++i) {
+    const std::uint32_t a = field.triangles[i], b = field.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    ++uses[std::minmax(a, b)];
+  }
+  Rim rim;
+  rim.distance.assign(field.base.size(), INFINITY);
+  std::vector<std::vector<std::uint32_t>> neighbours(field.base.size());
+  using Place = std::pair<double, std::uint32_t>;
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> queue;
+  for (const auto& [edge, count] : uses) {
+    const auto [a, b] = edge;
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+    if (count != 1) continue;
+    rim.length += glm::distance(field.base[a], field.base[b]);
+    for (const auto v : {a, b}) {
+      if (rim.distance[v] > 0) queue.emplace(0, v);
+      rim.distance[v] = 0;
+    }
+  }
+  while (!queue.empty()) {
+    const auto [distance, v] = queue.top();
+    queue.pop();
+    if (distance > rim.distance[v]) continue;
+    for (const auto other : neighbours[v]) {
+      const double there = distance + glm::distance(field.base[v], field.base[other]);
+      if (there >= rim.distance[other]) continue;
+      rim.distance[other] = there;
+      queue.emplace(there, other);
+    }
+  }
+  return rim;
+}
+
+// The shorter side of the rectangle with this area and rim; the root of the area where there is no rim.
+double shorter_side(double area, double rim) {
+  if (!(rim > 0)) return std::sqrt(area);
+  return 0.25 * rim - std::sqrt(std::max(0.0, rim * rim / 16 - area));
+}
+
+// The wavelength of f, one wave, by ∫w|∇f|² = k² ∫w f²: w falls to zero at rims over one wavelength, `guess`,
+// for there the filter bends what it has cut out. Nothing where most of f is that close to rims.
+std::optional<double> wavelength_away_from(const Rim& rim, double guess, const HeightField& field,
+                                           const VectorXd& f) {
+  double slopes = 0, heights = 0, all = 0;
+  for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
+    const auto x = [&](std::size_t c) { return field.base[field.triangles[t + c]]; };
+    const auto value = [&](std::size_t c) { return f[static_cast<Index>(field.triangles[t + c])]; };
+    const glm::dvec3 b = x(1) - x(0), c = x(2) - x(0), normal = glm::cross(b, c);
+    const double square = glm::dot(normal, normal);
+    if (!(square > 0)) continue;
+    const glm::dvec3 slope =
+        ((value(1) - value(0)) * glm::cross(c, normal) + (value(2) - value(0)) * glm::cross(normal, b)) /
+        square;
+    // Straight lines between samples of a wave are less steep than it is. Of e^(ik·x), a triangle's edges e
+    // with cotangents c show Σ c 2(1 − cos k·e) in place of Σ c (k·e)².
+    double steeper = 1;
+    if (const double steep = glm::length(slope); steep > 0) {
+      const glm::dvec3 k = 2 * pi / (guess * steep) * slope;
+      double truth = 0, shown = 0;
+      for (const auto& [edge, cotangent] :
+           {std::pair{b, glm::dot(c, c - b)}, std::pair{c, glm::dot(b, b - c)},
+            std::pair{c - b, glm::dot(b, c)}}) {
+        const double turn = glm::dot(k, edge);
+        truth += cotangent * turn * turn;
+        shown += cotangent * 2 * (1 - std::cos(turn));
+      }
+      if (shown > 0.4 * truth) steeper = truth / shown;
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const double near = std::min(1.0, rim.distance[field.triangles[t + corner]] / guess);
+      const double weight = std::sqrt(square) * std::pow(std::sin(0.5 * pi * near), 2);
+      slopes += weight * steeper * glm::dot(slope, slope);
+      heights += weight * value(corner) * value(corner);
+      all += std::sqrt(square) * value(corner) * value(corner);
+    }
+  }
+  if (!(heights > 0.25 * all && slopes > 0)) return std::nullopt;
+  return 2 * pi * std::sqrt(heights / slopes);
+}
+
 glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
@@ -215,8 +309,9 @@ glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
   return {d.x(), d.y(), d.z()};
 }
 
-// Connected regions where f is above 0, those smaller than a sixteenth of a square wave left out.
-int crests(const HeightField& field, const VectorXd& f, const VectorXd& mass, double wavelength) {
+// Connected regions where f is above 0; left out are those smaller than a sixteenth of a square wave, and
+// those that nowhere rise above a tenth of the wave: what a rim leaves of a crest, and roundings.
+int crests(const HeightField& field, const VectorXd& f, const VectorXd& mass, const MeshWave& wave) {
   std::vector<std::uint32_t> parent(field.base.size());
   for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
   const auto root = [&](std::uint32_t v) {
@@ -227,11 +322,20 @@ int crests(const HeightField& field, const VectorXd& f, const VectorXd& mass, do
     const std::uint32_t a = field.triangles[i], b = field.triangles[i % 3 == 2 ? i - 2 : i + 1];
     if (f[static_cast<Index>(a)] > 0 && f[static_cast<Index>(b)] > 0) parent[root(a)] = root(b);
   }
-  std::map<std::uint32_t, double> areas;
-  for (std::uint32_t v = 0; v < parent.size(); ++v)
-    if (f[static_cast<Index>(v)] > 0) areas[root(v)] += mass[static_cast<Index>(v)];
-  return static_cast<int>(std::count_if(areas.begin(), areas.end(), [&](const auto& area) {
-    return area.second > wavelength * wavelength / 16;
+  struct Region {
+    double area = 0, top = 0;
+  };
+  std::map<std::uint32_t, Region> regions;
+  for (std::uint32_t v = 0; v < parent.size(); ++v) {
+    const double height = f[static_cast<Index>(v)];
+    if (!(height > 0)) continue;
+    Region& region = regions[root(v)];
+    region.area += mass[static_cast<Index>(v)];
+    region.top = std::max(region.top, height);
+  }
+  return static_cast<int>(std::count_if(regions.begin(), regions.end(), [&](const auto& region) {
+    return region.second.area > wave.wavelength * wave.wavelength / 16 &&
+           region.second.top > 0.1 * wave.amplitude;
   }));
 }
 
@@ -271,9 +375,18 @@ MeshSpectrum measure_waves(const HeightField& field) {
     if (field.smoothing > 0) power[static_cast<std::size_t>(j)] *= sk < 1 ? 0 : std::pow((1 + sk) / sk, 2);
   }
 
-  const std::vector<double> hills = smoothed(power, x.longest, 0.6 * pi / std::sqrt(area));
+  const Rim rim = rim_of(field);
+  const std::vector<double> hills = smoothed(power, x.longest, 1.1 * pi / shorter_side(area, rim.length));
   const std::vector<Peak> found = peaks(power, hills);
-  const std::vector<VectorXd> parts = filtered(x.matrix, v, found);
+  std::vector<VectorXd> parts = filtered(x.matrix, v, found);
+  // A rim that cuts a wave off spreads a little of it over the whole spectrum. Where what no hill holds is
+  // that little, it is the strongest wave's, whose crests would be bent at the rims without it, and counted
+  // wrongly.
+  if (!parts.empty()) {
+    VectorXd rest = v;
+    for (const VectorXd& part : parts) rest -= part;
+    if (rest.norm() < 0.3 * parts[0].norm()) parts[0] += rest;
+  }
   for (std::size_t i = 0; i < found.size(); ++i) {
     // The middle of what stands above half of the peak.
     double sum = 0, mean = 0;
@@ -287,8 +400,9 @@ MeshSpectrum measure_waves(const HeightField& field) {
     wave.wavelength = 2 * pi * sum / mean;
     wave.amplitude = std::sqrt(2 * found[i].power / area);
     const VectorXd part = root.unaryExpr([](double r) { return r > 0 ? 1 / r : 0.0; }).cwiseProduct(parts[i]);
+    wave.wavelength = wavelength_away_from(rim, wave.wavelength, field, part).value_or(wave.wavelength);
     wave.direction = direction_of(field, part);
-    wave.count = crests(field, part, l.mass, wave.wavelength);
+    wave.count = crests(field, part, l.mass, wave);
     spectrum.waves.push_back(wave);
   }
   glm::dvec3 low(INFINITY), high(-INFINITY);
