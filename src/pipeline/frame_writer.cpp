@@ -2,6 +2,10 @@
 
 #include <tbb/global_control.h>
 
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
+
 #include <algorithm>
 #include <utility>
 
@@ -32,6 +36,11 @@ void FrameWriter::finish() {
 }
 
 void FrameWriter::work() {
+#ifdef __linux__
+  // Where the driver draws on the CPU as well, drawing comes first, and frames are encoded while the next one
+  // is prepared. On Linux this is of one thread.
+  setpriority(PRIO_PROCESS, 0, 10);
+#endif
   while (true) {
     Job job;
     {
