@@ -34,4 +34,10 @@ void prepare_heap() {
 #endif
 }
 
+void share_heap() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 }  // namespace plisse

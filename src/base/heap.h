@@ -7,4 +7,9 @@ namespace plisse {
 // library has no business with its caller's heap. Where the C library is not glibc nothing happens.
 void prepare_heap();
 
+// From now on one heap for all threads, as long as none but the first has allocated: for work whose threads
+// hand each other a few large blocks, which heaps of their own would map and unmap for every picture. Not for
+// threads that allocate much.
+void share_heap();
+
 }  // namespace plisse

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/heap.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -169,6 +170,7 @@ int run_render(Arguments& arguments) {
   RenderReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    share_heap();
     report = render(request, frame_progress(progress));
   }
   summarise(report, request.scene.output.path);
