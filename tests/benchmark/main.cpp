@@ -21,10 +21,10 @@ struct Section {
   const char* name;
   void (*measure)(Report&, const Effort&);
 };
-constexpr Section sections[] = {{"passes", measure_passes},   {"shading", measure_shading},
-                                {"plain", measure_plain_cpp}, {"png", measure_png},
-                                {"frames", measure_frames},   {"paper", measure_paper},
-                                {"sizing", measure_sizing},   {"import", measure_import}};
+constexpr Section sections[] = {
+    {"passes", measure_passes}, {"shading", measure_shading}, {"plain", measure_plain_cpp},
+    {"png", measure_png},       {"frames", measure_frames},   {"paper", measure_paper},
+    {"device", measure_device}, {"sizing", measure_sizing},   {"import", measure_import}};
 
 int run(int argc, char** argv) {
   CLI::App app("What plisse's passes cost, against Phong, plain C++, stb and the paper's tables");
