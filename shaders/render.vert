@@ -8,6 +8,9 @@ layout(binding = 18) uniform samplerBuffer render_vertices;   // rest normal as 
 
 uniform vec4 base_colour;     // linear
 uniform vec2 texture_size;    // texels
+#ifdef ALPHA
+uniform float wanted_side;    // 1: only triangles seen from in front, −1: from behind, 0: all
+#endif
 #ifdef NORMAL_MAP
 uniform vec3 normal_map_size;  // texels; scale
 #endif
@@ -78,6 +81,9 @@ void main() {
 
     vec3 b = p[1] - p[0], c = p[2] - p[0], area = cross(b, c);
     plane = dot(area, facing) < 0.0 ? -area : area;
+#ifdef ALPHA
+    if (wanted_side * (dot(plane, eye.xyz - p[0]) < 0.0 ? -1.0 : 1.0) < 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of view
+#endif
     float square = dot(area, area);
     vec3 slope_beta = safe_divide(cross(c, area), square), slope_gamma = safe_divide(cross(area, b), square);
 #ifdef NORMAL_MAP

@@ -365,8 +365,18 @@ void RenderPass::draw_parts(Programs& programs, bool blended, bool as_shown) {
     uniform(program, "has_alpha", static_cast<int>(part.has_alpha));
     uniform(program, "object", static_cast<float>(i + 1));
     part.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
-                 static_cast<GLsizei>(3 * part.triangle_count));
+    const auto draw_side = [&](float side) {
+      uniform(program, "wanted_side", side);
+      glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
+                   static_cast<GLsizei>(3 * part.triangle_count));
+    };
+    // The far wall of a veil lies behind its near one.
+    if (blended && part.two_sided) {
+      draw_side(-1);
+      draw_side(1);
+    } else {
+      draw_side(0);
+    }
   }
   glDisable(GL_CULL_FACE);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "reference/raster.h"
 
@@ -89,9 +90,8 @@ class Painter {
 
     double alpha = visible ? 1 : 0;
     const Candidate* front = visible;
-    // In the order they are drawn in.
     std::sort(veils.begin(), veils.end(),
-              [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
+              [&](const Candidate& a, const Candidate& b) { return drawing_place(a) < drawing_place(b); });
     for (const Candidate& veil : veils) {
       const double behind = visible ? veil.depth - visible->depth : -1;
       const double tolerance = visible ? depth_tolerance(veil, *visible) : 0;
@@ -112,6 +112,14 @@ class Painter {
       picture_.depth[pixel] = front->depth;
     }
     picture_.silhouette[pixel] = ambiguous;
+  }
+
+  // Of blended triangles: part by part, in each those seen from behind come first, and otherwise as they are
+  // listed.
+  std::tuple<int, bool, int> drawing_place(const Candidate& veil) const {
+    const Triangle& its = triangle(veil);
+    const Vector3d to_eye = scene_.camera.eye - its.waves.corners.col(0);
+    return {its.material, front_of(its).dot(to_eye) >= 0, veil.triangle};
   }
 
   double depth_tolerance(const Candidate& a, const Candidate& b) const {

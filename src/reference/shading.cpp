@@ -103,6 +103,13 @@ double shadow_factor(const ShadowMap& map, const Vector3d& position, const Vecto
   return sum / 9;
 }
 
+Vector3d front_of(const Triangle& triangle) {
+  const auto& corners = triangle.waves.corners;
+  const Vector3d plane =
+      Vector3d(corners.col(1) - corners.col(0)).cross(Vector3d(corners.col(2) - corners.col(0)));
+  return plane.dot(triangle.normals.rowwise().sum()) < 0 ? Vector3d(-plane) : plane;
+}
+
 Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragment) {
   const WaveTriangle& waves = triangle.waves;
   const Shading& shading = scene.shading;
@@ -110,12 +117,9 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
   const Vector3d position = waves.corners * fragment.barycentric;
   const Vector3d v = (scene.camera.eye - position).normalized();
 
-  // Which side is seen: the plane's normal, turned along the corners' normals.
-  Vector3d plane = Vector3d(waves.corners.col(1) - waves.corners.col(0))
-                       .cross(Vector3d(waves.corners.col(2) - waves.corners.col(0)));
+  const Vector3d plane = front_of(triangle);
   Vector3d normal = triangle.normals * fragment.barycentric;
   normal = normal.norm() > 0 ? normal.normalized() : plane.normalized();  // n'
-  if (plane.dot(triangle.normals.rowwise().sum()) < 0) plane = -plane;
   const double side = plane.dot(v) < 0 ? -1 : 1;
   const Vector3d n_s = side * normal;
 

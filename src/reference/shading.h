@@ -105,6 +105,10 @@ struct Shaded {
 };
 Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragment);
 
+// The normal of the triangle's plane, any length, on the side of its corners' normals: it is seen from in
+// front where this points to the eye.
+Eigen::Vector3d front_of(const Triangle& triangle);
+
 // "Cavity": the share of the sky that a point of a groove sees, from the side toward which height counts; 1
 // where the amplitude is 0.
 double groove_occlusion(double cavity, double amplitude, double height, double longest_wavenumber);

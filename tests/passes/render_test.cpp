@@ -522,6 +522,24 @@ TEST_F(Render, AlphaBlendsOverWhatIsBehind) {
   EXPECT_NEAR(clear.colour(2, 2).x, srgb(0.3), 1.01);
 }
 
+TEST_F(Render, TheFarWallOfAVeilIsBlendedFirst) {
+  // The near wall, which is listed first, is seen from in front, the far one from behind, as of a tube.
+  Stage stage(
+      test::sheet({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                  {0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6}));
+  auto& vertices = stage.sheet.surface.render_vertices;
+  for (auto& vertex : vertices) vertex.colour = glm::vec4(glm::vec3(vertex.welded < 4 ? 0.8F : 0.2F), 1);
+  stage.sheet.surface.parts.resize(1);
+  stage.sheet.surface.parts[0].has_colours = true;
+  stage.parts[0].has_colours = true;
+  stage.parts[0].has_alpha = true;
+  stage.parts[0].base_colour = {1, 1, 1, 0.5F};
+  EXPECT_NEAR(stage.draw(4, 4).colour(2, 2).x, srgb(0.5 * 0.8 + 0.5 * 0.5 * 0.2), 1.01);
+  // Of a part with one side the far wall is not drawn at all.
+  stage.parts[0].two_sided = false;
+  EXPECT_NEAR(stage.draw(4, 4).colour(2, 2).x, srgb(0.5 * 0.8), 1.01);
+}
+
 // --- textures
 // ----------------------------------------------------------------------------------------------------------------
 

@@ -260,7 +260,9 @@ TEST(ReferenceRaster, BlendedTrianglesCompositeInDrawOrder) {
   EXPECT_EQ(all.triangle[middle], 2);
   EXPECT_EQ(all.silhouette[middle], 0);
   // Drawn the other way round, the farther lies on the nearer: they do not hide each other.
+  std::swap(scene.materials[1], scene.materials[2]);
   std::swap(scene.triangles[1], scene.triangles[2]);
+  std::swap(scene.triangles[1].material, scene.triangles[2].material);
   EXPECT_NEAR(render(scene, 8, 8).colour[middle].x(), 0.25 * 0.2 + 0.75 * (0.5 * 0.3 + 0.5 * 0.1), 1e-14);
   // Over nothing colours stay premultiplied.
   scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
@@ -270,6 +272,20 @@ TEST(ReferenceRaster, BlendedTrianglesCompositeInDrawOrder) {
   // An opaque one of the same colour says nothing of alpha.
   scene.materials[3].blended = false;
   EXPECT_NEAR(render(scene, 8, 8).alpha[middle], 1, 1e-14);
+}
+
+// Within a part, what is seen from behind comes first, however it is listed: the far wall of a tube.
+TEST(ReferenceRaster, TheFarWallOfAVeilIsBlendedFirst) {
+  Scene scene = plain_scene();
+  scene.triangles = {plain({-1, -1, -0.4}, {1, -1, -0.4}, {0, 1, -0.4}, {0, 1, 2}),
+                     plain({1, -1, 0.2}, {-1, -1, 0.2}, {0, 1, 0.2}, {3, 4, 5})};
+  scene.triangles[0].colours *= 0.8;
+  scene.triangles[1].colours *= 0.2;
+  for (auto& triangle : scene.triangles) triangle.colours.row(3).setOnes();
+  scene.materials[0].base_alpha = 0.5;
+  scene.materials[0].blended = true;
+  // ½ of the light.
+  EXPECT_NEAR(render(scene, 8, 8).colour[4 * 8 + 4].x(), 0.5 * (0.5 * 0.8 + 0.5 * 0.5 * 0.2), 1e-14);
 }
 
 // --- shading
