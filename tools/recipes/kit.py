@@ -1,8 +1,9 @@
 """What the recipes of tools/figures work with.
 
 A recipe is a file tools/recipes/NAME.py: its first line says what it shows, MAKES lists the files that it leaves in
-docs/figures, MEASURES (if it is there and true) says that it measures times, and make(kit) makes them. Whatever goes
-through the kit is written down in NAME.sh beside them.
+docs/figures, MEASURES (if it is there and true) says that it measures times, LONG that --quick leaves it out, TESTS names the
+test programs it runs, NEEDS an environment variable it cannot do without, and make(kit) makes them. Whatever goes through
+the kit is written down in NAME.sh beside them.
 """
 import csv
 import importlib
@@ -29,6 +30,7 @@ class Recipe:
         self.name, self.make, self.makes = name, module.make, module.MAKES
         self.about = module.__doc__.strip().splitlines()[0].rstrip('.')
         self.measures = getattr(module, 'MEASURES', False)
+        self.long, self.tests, self.needs = getattr(module, 'LONG', False), getattr(module, 'TESTS', []), getattr(module, 'NEEDS', None)
 
 
 def load_recipes():
@@ -73,6 +75,15 @@ shadows = true
 colour = "#c9a66b"
 roughness = 0.45
 ''' + ('[output]\nground = true\n' if ground else '')
+
+
+def read_base(file):
+    """What plisse drape wrote: vertices (x, y, z, held) and faces, each three vertices and its rest triangle, (u₀, v₀, … v₂)."""
+    head, _, body = file.read_bytes().partition(b'end_header\n')
+    counts = [int(line.split()[2]) for line in head.decode().splitlines() if line.startswith('element')]
+    vertices = [struct.unpack_from('<dddB', body, 25 * i) for i in range(counts[0])]
+    faces = [struct.unpack_from('<B3iB6d', body, 25 * counts[0] + 62 * i) for i in range(counts[1])]
+    return vertices, [(face[1:4], face[5:]) for face in faces]
 
 
 def read_png(data):
@@ -171,6 +182,20 @@ class Kit:
         if done.returncode != 0:
             sys.exit(f'tools/figures {self.recipe.name}: {self.script[-1]}\nended with {done.returncode}')
         return done.stdout
+
+    def test(self, name, filter):
+        """Runs tests of the build, none of which may be skipped, and returns what they printed."""
+        words = [f'tests/test_{name}', f'--gtest_filter={filter}']
+        self.script.append(' '.join(shlex.quote(word) for word in words))
+        done = subprocess.run([program_folder() / words[0], words[1]], stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0 or '[  SKIPPED ]' in done.stdout:
+            sys.exit(f'tools/figures {self.recipe.name}: {self.script[-1]}\nended with {done.returncode}:\n{done.stdout[-3000:]}')
+        return done.stdout
+
+    def folder_of(self, variable, name):
+        """The folder that an environment variable names, under this name here."""
+        (self.work / name).symlink_to(pathlib.Path(os.environ[variable]).resolve())
+        self.script.append(f'ln -s "${variable}" {name}')
 
     def frame(self, scene, picture, number=1, *options):
         """One frame of a scene as docs/figures/PICTURE."""
