@@ -39,7 +39,7 @@ void FrameWriter::work() {
 #ifdef __linux__
   // Where the driver draws on the CPU as well, drawing comes first, and frames are encoded while the next one
   // is prepared. On Linux this is of one thread.
-  setpriority(PRIO_PROCESS, 0, 10);
+  setpriority(PRIO_PROCESS, 0, 7);
 #endif
   while (true) {
     Job job;
