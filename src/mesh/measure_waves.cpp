@@ -142,12 +142,15 @@ struct Peak {
 
 // A surface with rims has its modes up to π over its shorter side apart, and a wave that does not end on one
 // of them stands in several, like the teeth of a comb, at worst in every second: a bell in k as wide makes
-// one hill of them.
-std::vector<double> smoothed(const std::vector<double>& power, double longest, double width) {
+// one hill of them. A wave across that side has k at least 2π times the number of waves over it, so that with
+// four or more of them a bell of .15 k is wide enough, or one as for a square of the same area: waves along a
+// ribbon are not taken for one.
+std::vector<double> smoothed(const std::vector<double>& power, double longest, double narrowest,
+                             double widest) {
   std::vector<double> result(power.size(), 0.0);
   const auto wavenumber = [&](int j) { return longest * std::sin(0.5 * pi * (j + 0.5) / grid); };
   tbb::parallel_for(0, grid, [&](int j) {
-    const double k = wavenumber(j);
+    const double k = wavenumber(j), width = std::min(widest, std::max(narrowest, 0.15 * k));
     const auto add = [&](int step) {
       for (int i = j + step; i >= 0 && i < grid; i += step) {
         const double apart = (wavenumber(i) - k) / width;
@@ -237,17 +240,21 @@ Rim rim_of(const HeightField& field) {
   return rim;
 }
 
-// The shorter side of the rectangle with this area and rim; the root of the area where there is no rim.
+// The shorter side of the rectangle with this area and rim; the root of the area where a rim is too short for
+// one: a hole in a closed surface, or none.
 double shorter_side(double area, double rim) {
-  if (!(rim > 0)) return std::sqrt(area);
-  return 0.25 * rim - std::sqrt(std::max(0.0, rim * rim / 16 - area));
+  const double square = rim * rim / 16 - area;
+  return square > 0 ? 0.25 * rim - std::sqrt(square) : std::sqrt(area);
 }
 
 // The wavelength of f, one wave, by ∫w|∇f|² = k² ∫w f²: w falls to zero at rims over one wavelength, `guess`,
 // for there the filter bends what it has cut out. Nothing where most of f is that close to rims.
 std::optional<double> wavelength_away_from(const Rim& rim, double guess, const HeightField& field,
                                            const VectorXd& f) {
-  double slopes = 0, heights = 0, all = 0;
+  double slopes = 0, heights = 0, all = 0, inmost = 0;
+  for (const double distance : rim.distance)
+    if (std::isfinite(distance)) inmost = std::max(inmost, distance);
+  const double fall = inmost > 0 ? std::min(guess, inmost) : guess;
   for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
     const auto x = [&](std::size_t c) { return field.base[field.triangles[t + c]]; };
     const auto value = [&](std::size_t c) { return f[static_cast<Index>(field.triangles[t + c])]; };
@@ -273,7 +280,7 @@ std::optional<double> wavelength_away_from(const Rim& rim, double guess, const H
       if (shown > 0.4 * truth) steeper = truth / shown;
     }
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const double near = std::min(1.0, rim.distance[field.triangles[t + corner]] / guess);
+      const double near = std::min(1.0, rim.distance[field.triangles[t + corner]] / fall);
       const double weight = std::sqrt(square) * std::pow(std::sin(0.5 * pi * near), 2);
       slopes += weight * steeper * glm::dot(slope, slope);
       heights += weight * value(corner) * value(corner);
@@ -376,7 +383,8 @@ MeshSpectrum measure_waves(const HeightField& field) {
   }
 
   const Rim rim = rim_of(field);
-  const std::vector<double> hills = smoothed(power, x.longest, 1.1 * pi / shorter_side(area, rim.length));
+  const std::vector<double> hills =
+      smoothed(power, x.longest, 1.1 * pi / std::sqrt(area), 1.1 * pi / shorter_side(area, rim.length));
   const std::vector<Peak> found = peaks(power, hills);
   std::vector<VectorXd> parts = filtered(x.matrix, v, found);
   // A rim that cuts a wave off spreads a little of it over the whole spectrum. Where what no hill holds is

@@ -35,9 +35,9 @@ struct MeshSpectrum {
 };
 
 // Good to 1 % of the wavelength where a wave has eight vertices or more and the surface holds at least six
-// waves, and to 2 % with four; to 5 % of the amplitude. The hill in the spectrum says which part of f is a
-// wave; how long it is, its slopes and heights away from rims. Waves closer in k than some 2π over the
-// surface's shorter side count as one.
+// waves, and to 2 % with four, or along a ribbon narrower than a wave; to 5 % of the amplitude. The hill in
+// the spectrum says which part of f is a wave; how long it is, its slopes and heights away from rims. Waves
+// closer in k than some 2π over the surface's shorter side, or than a third of k, count as one.
 MeshSpectrum measure_waves(const HeightField& field);
 
 // The height of a mesh over itself made smooth: x − (M + sL)⁻¹M x along the normal, s = (diagonal/6π)², so

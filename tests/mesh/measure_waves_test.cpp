@@ -116,18 +116,57 @@ TEST(MeasureWaves, WhateverThePhaseAtTheRims) {
       }
     }
   }
-  EXPECT_GT(exact, tried * 3 / 4);
+  EXPECT_GT(exact, tried * 3 / 4);  // or the bounds above would say little
 }
 
 // The modes across a strip are further apart than those of a square of its area.
 TEST(MeasureWaves, AcrossAStrip) {
   const Mesh mesh = grid(61, 181, false, [](double u, double v) {
-    return glm::dvec3(u, 3 * v, 0.01 * std::cos(2 * pi * u / 0.17 + 2));
+    return glm::dvec3(u, 3 * v, 0.01 * std::cos(2 * pi * u / 0.15 + 2));
   });
   const MeshSpectrum spectrum = measure_waves(over_plane(mesh));
   ASSERT_EQ(spectrum.waves.size(), 1U);
-  EXPECT_NEAR(spectrum.waves[0].wavelength / 0.17, 1, wavelength_share);
-  EXPECT_EQ(spectrum.waves[0].count, 6);  // (2 + 2π/.17)/2π = 6.2 turns from .32: crests at 1 … 6
+  EXPECT_NEAR(spectrum.waves[0].wavelength / 0.15, 1, wavelength_share);
+  EXPECT_EQ(spectrum.waves[0].count, 7);  // from .32 to 6.98 turns: crests at 1 … 7
+}
+
+// A ribbon is narrower than its waves are long: nothing of it is a wavelength away from rims, and the modes
+// across it are far apart. Two waves along it are still two, and a quarter of a wave at each end bends a
+// length by 2 % at most.
+TEST(MeasureWaves, AlongARibbon) {
+  for (const double width : {0.1, 0.02}) {
+    HeightField field;
+    const Mesh flat =
+        grid(201, 5, false, [width](double u, double v) { return glm::dvec3(u, width * v, 0); });
+    field.base = flat.positions;
+    field.triangles = flat.triangles;
+    for (const auto& x : flat.positions)
+      field.height.push_back(0.003 * std::cos(2 * pi * x.x / 0.1 + 1.6) +
+                             0.002 * std::cos(2 * pi * x.x / 0.04));
+    const MeshSpectrum spectrum = measure_waves(field);
+    ASSERT_EQ(spectrum.waves.size(), 2U) << width;
+    EXPECT_NEAR(spectrum.waves[0].wavelength / 0.1, 1, 0.02) << width;
+    EXPECT_NEAR(spectrum.waves[1].wavelength / 0.04, 1, 0.02) << width;
+    EXPECT_NEAR(spectrum.waves[0].amplitude / 0.003, 1, amplitude_share) << width;
+    EXPECT_EQ(spectrum.waves[0].count, 10) << width;
+  }
+}
+
+// Zones round a globe, as on a balloon; a hole in it is a rim that holds nothing.
+TEST(MeasureWaves, AHoleInAClosedSurfaceChangesNothing) {
+  constexpr double R = 0.3;
+  Mesh globe = grid(120, 60, true, [](double u, double v) {
+    const double polar = pi * (0.01 + 0.98 * v), around = 2 * pi * u;
+    return R * glm::dvec3(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+                          std::cos(polar));
+  });
+  globe.triangles.erase(globe.triangles.begin() + 3 * 7000, globe.triangles.begin() + 3 * 7001);
+  HeightField field{globe.positions, {}, globe.triangles, 0};
+  for (const auto& x : globe.positions)
+    field.height.push_back(0.002 * std::cos(2 * pi * R * std::acos(x.z / R) / 0.12));
+  const MeshSpectrum spectrum = measure_waves(field);
+  ASSERT_FALSE(spectrum.waves.empty());
+  EXPECT_NEAR(spectrum.waves[0].wavelength / 0.12, 1, wavelength_share);
 }
 
 TEST(MeasureWaves, TheMeshsOwnShapeServesAsBase) {
