@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/heap.h"
@@ -30,6 +31,10 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(plisse::ExitCode::try_again,
                 "memory is exhausted; try again with fewer threads or a smaller picture");
+  } catch (const std::system_error& error) {
+    const bool short_of = error.code() == std::errc::resource_unavailable_try_again ||
+                          error.code() == std::errc::not_enough_memory;
+    return fail(short_of ? plisse::ExitCode::try_again : plisse::ExitCode::bad_input, error.what());
   } catch (const std::exception& error) {
     return fail(plisse::ExitCode::bad_input, error.what());
   } catch (...) {

@@ -9,19 +9,40 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <fstream>
 #endif
 
 namespace plisse {
+
+#ifdef __GLIBC__
+namespace {
+
+// Whether address space that is not used costs nothing: no limit on it (ulimit -v, batch systems), where a
+// reserve would be taken from threads and drivers, and no kernel that counts what may be used as if it were.
+bool address_space_is_free() {
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return false;
+  }
+  constexpr int never_overcommit = 2;
+  int policy = never_overcommit;
+  std::ifstream("/proc/sys/vm/overcommit_memory") >> policy;
+  return policy != never_overcommit;
+}
+
+}  // namespace
+#endif
 
 void prepare_heap() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);              // large blocks from the heap too, where they are used again
   mallopt(M_TRIM_THRESHOLD, 1 << 30);  // up to 1 GiB of what is free stays with the process
-  // The heap's first part is address space alone until it is touched. Where it cannot be had (ulimit -v), the
-  // heap grows as it always does.
+  if (!address_space_is_free()) return;
+  // The heap's first part, address space alone until it is touched, in large pages.
   constexpr int reserve = 512 << 20, default_padding = 128 << 10;
   mallopt(M_TOP_PAD, reserve);
   constexpr std::size_t large_page = 2 << 20;

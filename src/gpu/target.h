@@ -34,7 +34,8 @@ class Target {
   int height() const { return height_; }
   int samples() const { return samples_; }
   void bind() const;
-  void bind_resolved() const;  // to draw into what `resolve` leaves alone
+  void bind_resolved()
+      const;  // to draw without samples of its own: before `resolve` beside it, after it on top
   // Averages the samples of one rectangle (the rest of the resolved picture keeps what was drawn there).
   void resolve(const Rectangle& area) const;
   // Rows from top to bottom. Reads the resolved picture.

@@ -272,7 +272,9 @@ void RenderPass::draw_ground_map(const View& view) {
     glUniform4i(program.uniform("area"), area.x, area.y, area.x + area.width, area.y + area.height);
     glBindImageTexture(0, result, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG16F);
     glDispatchCompute(static_cast<GLuint>(area.width + 7) / 8, static_cast<GLuint>(area.height + 7) / 8, 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    // Fetched by the next pass and the backdrop, written over, cleared, read back.
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
   };
   ground_cast_.use();
   glBindTextureUnit(2, shadow_texture_);
@@ -295,7 +297,7 @@ void RenderPass::draw_ground_map(const View& view) {
   }
 }
 
-void RenderPass::draw_backdrop(const View& view) {
+void RenderPass::draw_backdrop(const View& view, bool under) {
   const GroundFrame ground(view);
   GLint viewport[4];
   glGetIntegerv(GL_VIEWPORT, viewport);
@@ -309,8 +311,8 @@ void RenderPass::draw_backdrop(const View& view) {
   uniform(backdrop_, "map_along", ground.along);
   glBindTextureUnit(3, ground_textures_[0]);
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // under what is there, whose colours are premultiplied
+  if (under) glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // what is there has premultiplied colours
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_BLEND);
 }
@@ -453,29 +455,41 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
   if (look_.ground) draw_ground_map(view);
   write_scene(view);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  if (target.samples() > 1 && (area.width < target.width() || area.height < target.height())) {
-    target.bind_resolved();
-    clear(false);
-  }
-  target.bind();
-  if (!area.empty() || target.samples() == 1) draw_surface(surface, view, area);
-  target.resolve(area);
-  if (look_.ground && !look_.transparent) {
-    target.bind_resolved();
-    draw_backdrop(view);
+  const bool backdrop = look_.ground && !look_.transparent;
+  if (backdrop && has_veils()) {
+    target.bind();
+    clear(true);
+    draw_backdrop(view, false);
+    draw_surface(surface, view, {0, 0, target.width(), target.height()});
+    target.resolve({0, 0, target.width(), target.height()});
+  } else {
+    if (target.samples() > 1 && (area.width < target.width() || area.height < target.height())) {
+      target.bind_resolved();
+      clear(false);
+    }
+    target.bind();
+    clear(true);
+    if (!area.empty()) draw_surface(surface, view, area);
+    target.resolve(area);
+    if (backdrop) {
+      target.bind_resolved();
+      draw_backdrop(view, true);
+    }
   }
   gpu::check("while rendering");
 }
 
+bool RenderPass::has_veils() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; });
+}
+
 void RenderPass::draw_surface(const SurfaceBuffers& surface, const View& view, const gpu::Rectangle& area) {
-  clear(true);
-  if (area.empty()) return;
   glEnable(GL_SCISSOR_TEST);
   glScissor(area.x, area.y, area.width, area.height);
   glEnable(GL_DEPTH_TEST);
   if (look_.shadows) glBindTextureUnit(2, shadow_texture_);
   draw_parts(surface_, false, true);
-  if (std::any_of(parts_.begin(), parts_.end(), [](const DrawPart& part) { return part.has_alpha; })) {
+  if (has_veils()) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
     glDepthMask(GL_FALSE);

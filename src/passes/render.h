@@ -122,7 +122,10 @@ class RenderPass {
   void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
   void draw_ground_map(const View& view);
   void clear(bool with_depth);
-  void draw_backdrop(const View& view);
+  // `under`: under what is drawn already. Not under veils: what their alpha leaves of it is rounded to steps
+  // of 1/255, which shows in the dark.
+  void draw_backdrop(const View& view, bool under);
+  bool has_veils() const;  // parts that are blended
   // A program for every set of features that the parts' materials need (render.cpp, features_of).
   using Programs = std::map<unsigned, gpu::Program>;
   gpu::Defines surface_defines() const;  // what the surface's programs are compiled for

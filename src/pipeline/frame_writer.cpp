@@ -7,14 +7,19 @@
 #endif
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace plisse::pipeline {
 
-FrameWriter::FrameWriter() {
+FrameWriter::FrameWriter(bool behind_drawing) : behind_drawing_(behind_drawing) {
   const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  for (std::size_t i = 0; i < std::min<std::size_t>(allowed, 4); ++i)
-    threads_.emplace_back([this] { work(); });
+  try {
+    for (std::size_t i = 0; i < std::min<std::size_t>(allowed, 4); ++i)
+      threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {  // one does, more slowly
+    if (threads_.empty()) throw;
+  }
 }
 
 void FrameWriter::submit(Job job) {
@@ -37,9 +42,8 @@ void FrameWriter::finish() {
 
 void FrameWriter::work() {
 #ifdef __linux__
-  // Where the driver draws on the CPU as well, drawing comes first, and frames are encoded while the next one
-  // is prepared. On Linux this is of one thread.
-  setpriority(PRIO_PROCESS, 0, 7);
+  // What Linux calls a process here is this thread. Niceness adds to what the program was started with.
+  if (behind_drawing_) setpriority(PRIO_PROCESS, 0, std::min(19, getpriority(PRIO_PROCESS, 0) + 7));
 #endif
   while (true) {
     Job job;

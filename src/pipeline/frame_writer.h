@@ -14,8 +14,10 @@ class FrameWriter {
  public:
   // Must not throw.
   using Job = std::function<void()>;
-  // As many threads as a GPU needs, four, or as --threads allows.
-  FrameWriter();
+  // As many threads as a GPU needs, four, or as --threads allows. `behind_drawing`: at a lower priority, for
+  // where the driver draws on the CPU as well: frames are then encoded while the next one is prepared, which
+  // leaves a core idle. Throws std::system_error where not one thread can be started.
+  explicit FrameWriter(bool behind_drawing);
   ~FrameWriter() { finish(); }
   // Waits where two jobs a thread wait already: more would only hold memory.
   void submit(Job job);
@@ -28,6 +30,7 @@ class FrameWriter {
   std::deque<Job> jobs_;
   std::vector<std::thread> threads_;
   bool done_ = false;
+  bool behind_drawing_;
 };
 
 }  // namespace plisse::pipeline

@@ -251,7 +251,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   bool full = false;  // a frame could not be written: the next one would fare the same
 
   {
-    pipeline::FrameWriter writer;
+    pipeline::FrameWriter writer(context.info().software);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       {
         std::lock_guard lock(callback_mutex);

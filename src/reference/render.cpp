@@ -114,12 +114,12 @@ class Painter {
     picture_.silhouette[pixel] = ambiguous;
   }
 
-  // Of blended triangles: part by part, in each those seen from behind come first, and otherwise as they are
-  // listed.
+  // Of blended triangles: part by part, of those with two sides first what is seen from behind, and otherwise
+  // as they are listed.
   std::tuple<int, bool, int> drawing_place(const Candidate& veil) const {
     const Triangle& its = triangle(veil);
     const Vector3d to_eye = scene_.camera.eye - its.waves.corners.col(0);
-    return {its.material, front_of(its).dot(to_eye) >= 0, veil.triangle};
+    return {its.material, material(veil).two_sided && front_of(its).dot(to_eye) >= 0, veil.triangle};
   }
 
   double depth_tolerance(const Candidate& a, const Candidate& b) const {

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "gpu/target.h"
 #include "support/files.h"
@@ -520,6 +521,28 @@ TEST_F(Render, AlphaBlendsOverWhatIsBehind) {
   const Picture clear = stage.draw(4, 4);
   EXPECT_NEAR(clear.alpha(2, 2), 127.5, 1.01);
   EXPECT_NEAR(clear.colour(2, 2).x, srgb(0.3), 1.01);
+}
+
+// A dark veil that lets hardly anything of the ground through: that little is still the ground's, to a step
+// of 255.
+TEST_F(Render, ADarkVeilOverTheGround) {
+  for (const int samples : {1, 4}) {
+    Stage stage(unit_square());
+    stage.look.ground = true;
+    stage.look.background = glm::dvec3(0.6);
+    stage.view.up = {0, 1, 0};
+    stage.parts[0].has_alpha = true;
+    stage.view.ambient = glm::dvec3(0);
+    stage.look.sheen = 0;
+    stage.parts[0].base_colour = {0, 0, 0, 0};
+    const Picture bare = stage.draw(16, 16, samples);
+    for (const float alpha : {0.5F, 0.9745F, 0.99F}) {
+      stage.parts[0].base_colour.a = alpha;
+      const Picture veiled = stage.draw(16, 16, samples);
+      const double behind = srgb_to_linear(bare.colour(8, 8).x / 255);
+      EXPECT_NEAR(veiled.colour(8, 8).x, srgb((1 - static_cast<double>(alpha)) * behind), 1.01) << alpha;
+    }
+  }
 }
 
 TEST_F(Render, TheFarWallOfAVeilIsBlendedFirst) {

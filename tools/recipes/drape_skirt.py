@@ -12,6 +12,6 @@ def make(kit):
                      'all' if all(frame['converged'] for frame in report['frames']) else 'not all',
                      max(frame['inside'] for frame in report['frames']),
                      f'{1e3 * min(frame["nearest_m"] for frame in report["frames"]):.2f} mm',
-                     f'{kit.spent[1]:.2g} s', f'{kit.spent[0]:.2g} s', f'{report["peak_rss_MiB"]:.0f} MiB'])
+                     f'{kit.spent[1]:.1f} s', f'{kit.spent[0]:.1f} s', f'{report["peak_rss_MiB"]:.0f} MiB'])
     kit.table('drape_skirt', ['frames', 'steps a frame', 'steps', 'converged', 'vertices inside, at most', 'nearest', 'CPU', 'wall', 'memory'], rows,
               'drape.md', kit.provenance())

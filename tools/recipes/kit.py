@@ -197,6 +197,11 @@ class Kit:
         (self.work / name).symlink_to(pathlib.Path(os.environ[variable]).resolve())
         self.script.append(f'ln -s "${variable}" {name}')
 
+    def expect(self, holds, otherwise):
+        """Ends the run where what was made cannot be right."""
+        if not holds:
+            sys.exit(f'tools/figures {self.recipe.name}: {otherwise}')
+
     def frame(self, scene, picture, number=1, *options):
         """One frame of a scene as docs/figures/PICTURE."""
         self.plisse('render', scene, '-o', picture, '--frames', number, '--size', self.size, *options)
