@@ -39,8 +39,8 @@ bool address_space_is_free() {
 
 void prepare_heap() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);              // large blocks from the heap too, where they are used again
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);  // up to 1 GiB of what is free stays with the process
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most there is: smaller blocks come from the heap
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);   // up to 1 GiB of what is free stays with the process
   if (!address_space_is_free()) return;
   // The heap's first part, address space alone until it is touched, in large pages.
   constexpr int reserve = 512 << 20, default_padding = 128 << 10;
@@ -58,6 +58,7 @@ void prepare_heap() {
 void share_heap() {
 #ifdef __GLIBC__
   mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_MAX, 0);
 #endif
 }
 

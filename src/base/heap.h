@@ -7,9 +7,10 @@ namespace plisse {
 // library has no business with its caller's heap. Where the C library is not glibc nothing happens.
 void prepare_heap();
 
-// From now on one heap for all threads, as long as none but the first has allocated: for work whose threads
-// hand each other a few large blocks, which heaps of their own would map and unmap for every picture. Not for
-// threads that allocate much.
+// From now on one heap for all threads and for blocks of any size, as long as no thread but the first has
+// allocated: for work whose threads hand each other a few large blocks, which would be mapped and unmapped
+// for every picture. Not for threads that allocate much, nor for solvers whose blocks grow: what they leave
+// behind in a heap is not handed back.
 void share_heap();
 
 }  // namespace plisse
