@@ -205,21 +205,25 @@ struct Rim {
 
 // Edges of one triangle only, and how far all vertices are from them (Dijkstra).
 Rim rim_of(const HeightField& field) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
-  for (std::size_t i = 0; i < field.triangles.size(); ++i) {
-    const std::uint32_t a = field.triangles[i], b = field.triangles[i % 3 == 2 ? i - 2 : i + 1];
-    ++uses[std::minmax(a, b)];
-  }
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Edge> edges;
+  edges.reserve(field.triangles.size());
+  for (std::size_t i = 0; i < field.triangles.size(); ++i)
+    edges.push_back(std::minmax(field.triangles[i], field.triangles[i % 3 == 2 ? i - 2 : i + 1]));
+  std::sort(edges.begin(), edges.end());
   Rim rim;
   rim.distance.assign(field.base.size(), INFINITY);
   std::vector<std::vector<std::uint32_t>> neighbours(field.base.size());
   using Place = std::pair<double, std::uint32_t>;
   std::priority_queue<Place, std::vector<Place>, std::greater<>> queue;
-  for (const auto& [edge, count] : uses) {
-    const auto [a, b] = edge;
+  for (auto first = edges.begin(); first != edges.end();) {
+    const auto [a, b] = *first;
+    const auto last = std::find_if(first, edges.end(), [&](const Edge& edge) { return edge != *first; });
+    const bool on_rim = last - first == 1;
+    first = last;
     neighbours[a].push_back(b);
     neighbours[b].push_back(a);
-    if (count != 1) continue;
+    if (!on_rim) continue;
     rim.length += glm::distance(field.base[a], field.base[b]);
     for (const auto v : {a, b}) {
       if (rim.distance[v] > 0) queue.emplace(0, v);

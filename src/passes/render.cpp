@@ -14,6 +14,7 @@ namespace plisse::passes {
 namespace {
 
 constexpr double ground_reach = 3.2;    // half the ground map's side, in radii of the model
+constexpr double sphere_margin = 1.02;  // of the depth maps: the sphere that they hold, in radii of the model
 constexpr double contact_reach = 0.05;  // how far above the floor the surface still darkens it, in radii
 
 // std140 layout of common/scene.glsl.
@@ -79,13 +80,14 @@ constexpr unsigned without_waves = 16, faded_waves = 32;
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
   glm::dvec3 across, along, origin;
+  glm::dvec3 foot;  // straight below the model's centre: the middle of the map
   double side;
   explicit GroundFrame(const View& view) {
     const glm::dvec3 up = view.up;
     across = glm::normalize(glm::cross(std::abs(up.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1), up));
     along = glm::cross(up, across);
     side = 2 * ground_reach * view.bounds_radius;
-    const glm::dvec3 foot = view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, up)) * up;
+    foot = view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, up)) * up;
     origin = foot - 0.5 * side * (across + along);
   }
 };
@@ -94,8 +96,7 @@ struct GroundFrame {
 // of the shadow of the sphere that its depth maps hold, and of what is below it. All others are zero.
 gpu::Rectangle darkened_texels(const GroundFrame& ground, const View& view, int size, int reach) {
   const glm::dvec3 light = view.lights[0].direction;
-  const double radius = 1.02 * view.bounds_radius, texel = ground.side / size;
-  const glm::dvec3 foot = view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, view.up)) * view.up;
+  const double radius = sphere_margin * view.bounds_radius, texel = ground.side / size;
   const double climb = glm::dot(light, view.up);
   // A light at the height of the floor throws no end of shadow; one below it is left to the depth map.
   if (climb < 1e-3) return {0, 0, size, size};
@@ -103,7 +104,7 @@ gpu::Rectangle darkened_texels(const GroundFrame& ground, const View& view, int 
       view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, view.up)) / climb * light;
   const auto range = [&](const glm::dvec3& axis) {
     const double slant = glm::dot(light, axis) / climb, from = glm::dot(ground.origin, axis);
-    const double below = glm::dot(foot, axis) - from, thrown = glm::dot(shadow, axis) - from;
+    const double below = glm::dot(ground.foot, axis) - from, thrown = glm::dot(shadow, axis) - from;
     const double low = std::min(below - radius, thrown - radius * std::sqrt(1 + slant * slant));
     const double high = std::max(below + radius, thrown + radius * std::sqrt(1 + slant * slant));
     // Two texels for the depth maps' own bilinear reading.
@@ -240,7 +241,7 @@ void RenderPass::draw_shadow_map(const SurfaceBuffers& surface, const View& view
     uniform(depth_, "to_clip", matrix);
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * surface.triangle_count));
   };
-  const double radius = 1.02 * view.bounds_radius;
+  const double radius = sphere_margin * view.bounds_radius;
   const glm::dmat4 light = parallel_projection(view.bounds_centre, radius, -view.lights[0].direction);
   shadow_matrix_ = clip_to_unit() * light;
   shadow_texel_ = 2 * radius / shadow_size;
@@ -284,7 +285,7 @@ void RenderPass::draw_ground_map(const View& view) {
   uniform(ground_cast_, "map_origin", wide(ground.origin, ground.side));
   uniform(ground_cast_, "map_across", ground.across);
   uniform(ground_cast_, "map_along", ground.along);
-  const double range = 2 * 1.02 * view.bounds_radius;
+  const double range = 2 * sphere_margin * view.bounds_radius;
   uniform(ground_cast_, "heights_per_reach",
           static_cast<float>(range / (contact_reach * view.bounds_radius)));
   run(ground_cast_, ground_textures_[0]);
@@ -467,8 +468,10 @@ void RenderPass::draw(const SurfaceBuffers& surface, const View& view, const gpu
       target.bind_resolved();
       clear(false);
     }
-    target.bind();
-    clear(true);
+    if (target.samples() == 1 || !area.empty()) {
+      target.bind();
+      clear(true);
+    }
     if (!area.empty()) draw_surface(surface, view, area);
     target.resolve(area);
     if (backdrop) {

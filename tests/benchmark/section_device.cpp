@@ -108,21 +108,20 @@ void measure_device(Report& report, const Effort& effort) {
   const char* clock = "";
   {
     const gpu::Context context;
-    limits = limits_of(effort, context.info().software);
-    clock = gpu::StageTimer(context.info().software).kind() == std::string("gpu")
-                ? "timer queries"
-                : "the wall clock round a glFinish, as timer queries say nothing on a software renderer";
+    const bool software = context.info().software;
+    limits = limits_of(effort, software);
+    clock = software ? "the wall clock round a glFinish, as timer queries say nothing on a software renderer"
+                     : "timer queries";
   }
-  Table table{
-      "Every pass against the device's limits",
-      fmt::format(
-          "By {}. Memory: {:.1f} GB/s, a copy from buffer to buffer, both ways counted; a launch: {:.1f} µs, "
-          "a "
-          "round of relax on four vertices, each waiting for the last. MB: what a pass must move. The last "
-          "column is its time over the larger of both limits: 1 cannot be beaten.",
-          clock, 1e-9 * limits.bytes_per_s, 1e6 * limits.launch_s),
-      {"model", "vertices", "pass", "picture", "ms", "MB", "GB/s", "time / limit"},
-      {}};
+  Table table{"Every pass against the device's limits",
+              fmt::format("By {}. Memory: {:.1f} GB/s, a copy from buffer to buffer, both ways counted; a "
+                          "launch: {:.1f} µs, a round of relax "
+                          "on four vertices, each waiting for the last. MB: what a pass must move. The last "
+                          "column is its time over the larger "
+                          "of both limits: 1 cannot be beaten.",
+                          clock, 1e-9 * limits.bytes_per_s, 1e6 * limits.launch_s),
+              {"model", "vertices", "pass", "picture", "ms", "MB", "GB/s", "time / limit"},
+              {}};
   const bool tiny = effort.samples == 1;
   const std::vector<std::pair<int, int>> sizes =
       tiny ? std::vector<std::pair<int, int>>{{64, 52}, {96, 54}}
