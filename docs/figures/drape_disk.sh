@@ -2,6 +2,4 @@
 # (tools/figures drape_disk)
 ln -s "$PLISSE_TFW_DISK" disk
 plisse drape disk/elastic/disk_elastic.json --start disk/disk_simulated.obj -o from_theirs.ply
-plisse drape disk/elastic/disk_elastic.json -o base.ply
-plisse drape disk/elastic/disk_elastic.json -o base.ply
-plisse drape disk/elastic/disk_elastic.json -o base.ply
+for i in $(seq 3); do plisse drape disk/elastic/disk_elastic.json -o base.ply; done

@@ -7,6 +7,7 @@ the kit is written down in NAME.sh beside them.
 """
 import csv
 import importlib
+import itertools
 import json
 import os
 import pathlib
@@ -260,5 +261,9 @@ class Kit:
         if missing:
             sys.exit(f'tools/recipes/{self.recipe.name}.py: it did not make {", ".join(sorted(missing))}')
         about = f'# {self.recipe.about}: {", ".join(self.recipe.makes)}\n# (tools/figures {self.recipe.name})\n'
-        (self.folder / f'{self.recipe.name}.sh').write_text(about + '\n'.join(self.script) + '\n')
+        lines = []
+        for line, again in itertools.groupby(self.script):
+            times = len(list(again))
+            lines.append(line if times == 1 else f'for i in $(seq {times}); do {line}; done')
+        (self.folder / f'{self.recipe.name}.sh').write_text(about + '\n'.join(lines) + '\n')
         return self.kept
