@@ -323,10 +323,12 @@ std::string svg_plot(const Plot& plot) {
   if (legend) {
     const double at = area.x + area.width + 22;
     double line = area.y + 8;
-    for (std::size_t s = 0; s < plot.series.size(); ++s, line += 22) {
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      if (plot.series[s].name.empty()) continue;
       svg += symbol(s, at, line);
       svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", at + 14, line + 4,
                          xml_text(plot.series[s].name));
+      line += 22;
     }
     if (!plot.mark_name.empty()) {
       svg += fmt::format(

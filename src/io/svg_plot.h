@@ -16,7 +16,7 @@ struct PlotPoint {
 };
 
 struct PlotSeries {
-  std::string name;
+  std::string name;  // in the legend, unless it is empty
   std::vector<PlotPoint> points;
   bool joined = false;  // by a thin line, in their order
 };

@@ -76,6 +76,16 @@ TEST(SvgPlot, TextsAreEscapedAndTimesHaveUnits) {
   EXPECT_THAT(svg, HasSubstr(">first<"));
 }
 
+TEST(SvgPlot, TheLegendNamesOnlyWhatHasAName) {
+  Plot plot = three_decades();
+  plot.mark_name = "front";
+  EXPECT_EQ(circles(svg_plot(plot)).size(), 4U);  // three points, and their symbol beside the name
+  plot.series[0].name.clear();
+  const std::string svg = svg_plot(plot);
+  EXPECT_EQ(circles(svg).size(), 3U);
+  EXPECT_THAT(svg, HasSubstr(">front<"));
+}
+
 TEST(SvgPlot, EverythingStaysInsideThePicture) {
   Plot plot = three_decades();
   plot.series.push_back(
