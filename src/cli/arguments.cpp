@@ -23,7 +23,7 @@ namespace {
 
 bool is_scene(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  return CLI::detail::to_lower(extension) == ".toml";
+  return lower_case(extension) == ".toml";
 }
 
 }  // namespace
@@ -61,12 +61,11 @@ void refuse_without_effect(std::initializer_list<GivenOption> options, const std
     if (option.given) throw Error(ExitCode::bad_input, fmt::format("{}: has no effect {}", option.name, why));
 }
 
-CommonArguments::CommonArguments(CLI::App& app) {
-  app.add_option("--threads", threads_, "Threads of the CPU to use at most")->type_name("N");
-  app.add_flag("-q,--quiet", quiet_, "Errors only");
-  app.add_flag("-v,--verbose", verbose_, "Say more on standard error");
-  app.add_option("--json", json_, "Write the report to a file, or to standard output for '-'")
-      ->type_name("FILE");
+CommonArguments::CommonArguments(CommandOptions& options) {
+  options.add("--threads", threads_, "N", "Threads of the CPU to use at most");
+  options.flag("-q,--quiet", quiet_, "Errors only");
+  options.flag("-v,--verbose", verbose_, "Say more on standard error");
+  options.add("--json", json_, "FILE", "Write the report to a file, or to standard output for '-'");
 }
 
 void CommonArguments::apply() {
@@ -80,29 +79,26 @@ void CommonArguments::apply() {
   setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 0);
 }
 
-SceneArguments::SceneArguments(CLI::App& app, const Wanted& wanted) : app_(app) {
-  app.add_option(
-         "input", input_,
-         described(
-             "A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder; or a "
-             "panel file (docs/sizing.md)"))
-      ->type_name("SCENE.toml|MODEL");
+SceneArguments::SceneArguments(CommandOptions& options, const Wanted& wanted) : command_(options.command()) {
+  options.add(
+      "input", input_, "SCENE.toml|MODEL",
+      described("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder; or a "
+                "panel file (docs/sizing.md)"));
   for (const SceneOption& option : scene_options()) {
     if (!wanted(option.name)) continue;
     Given& given = given_.emplace_back(Given{option.name, {}});
     const std::string names = option.name == "--output" ? "-o,--output" : option.name;
-    auto* added = app.add_option(names, given.values, described(option.help));
-    added->type_name(option.value)->group("[" + option.table + "], overriding the scene's keys");
+    options.set_headline("[" + option.table + "], overriding the scene's keys");
     // One value each time the option is given, so that "--only shirt model.glb" means what it looks like.
-    added->allow_extra_args(false);
+    options.add(names, given.values, Values::one_each_time, option.value, described(option.help));
   }
+  options.set_headline("");
 }
 
 SceneSettings SceneArguments::settings() const {
   if (input_.empty()) {
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", app_.get_name()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", command_));
   }
   SceneSettings scene;
   if (!is_scene(input_)) {
@@ -125,10 +121,9 @@ bool decides_geometry(const std::string& option) {
   return std::find(std::begin(of_pictures), std::end(of_pictures), option) == std::end(of_pictures);
 }
 
-DeviceArguments::DeviceArguments(CLI::App& app) {
-  app.add_option("--device", device_, "The device to draw with, as --list-devices numbers them")
-      ->type_name("N");
-  app.add_flag("--list-devices", list_, "List the devices and end");
+DeviceArguments::DeviceArguments(CommandOptions& options) {
+  options.add("--device", device_, "N", "The device to draw with, as --list-devices numbers them");
+  options.flag("--list-devices", list_, "List the devices and end");
 }
 
 void DeviceArguments::list() const {

@@ -1,26 +1,19 @@
 // Arguments that several commands share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <deque>
 #include <functional>
 #include <initializer_list>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/progress.h"
-#include "base/text.h"
+#include "cli/command_line.h"
 #include "config/settings.h"
 #include "pipeline.h"
 
 namespace plisse::cli {
-
-// A description for --help: CLI11 prints it as it is, beside a column for the options.
-inline std::string described(std::string_view text) {
-  return wrapped(text, 76);
-}
 
 // A number above 0; a whole number in low … high. Throw Error(bad_input) that names the option.
 double positive_number(const std::string& option, const std::string& text);
@@ -39,7 +32,7 @@ void refuse_without_effect(std::initializer_list<GivenOption> options, const std
 // --threads, -q, -v, --json.
 class CommonArguments {
  public:
-  explicit CommonArguments(CLI::App& app);
+  explicit CommonArguments(CommandOptions& options);
   // Sets log level and thread limit; the limit holds as long as this object lives.
   void apply();
 
@@ -59,7 +52,7 @@ class SceneArguments {
  public:
   using Wanted = std::function<bool(const std::string& option)>;
   explicit SceneArguments(
-      CLI::App& app, const Wanted& wanted = [](const std::string&) { return true; });
+      CommandOptions& options, const Wanted& wanted = [](const std::string&) { return true; });
   // Reads the scene, or takes the defaults for a bare model, and applies the options.
   SceneSettings settings() const;
 
@@ -68,9 +61,9 @@ class SceneArguments {
     std::string option;
     std::vector<std::string> values;
   };
-  const CLI::App& app_;
+  std::string command_;
   std::string input_;
-  std::deque<Given> given_;  // a deque: CLI11 keeps references to its elements
+  std::deque<Given> given_;  // a deque: the command line keeps references to its elements
 };
 
 // For commands that make no picture: whether an option of render's counts there too.
@@ -79,7 +72,7 @@ bool decides_geometry(const std::string& option);
 // --device and --list-devices.
 class DeviceArguments {
  public:
-  explicit DeviceArguments(CLI::App& app);
+  explicit DeviceArguments(CommandOptions& options);
   bool list_wanted() const { return list_; }
   void list() const;
   int device() const;  // −1: the first that works

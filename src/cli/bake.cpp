@@ -23,29 +23,22 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app)
-      : scene(app, [](const std::string& option) { return decides_geometry(option); }),
-        device(app),
-        common(app) {
-    app.add_option("-o,--output", output, "The folder for height_####.exr and .png and normal_####.png")
-        ->type_name("DIR");
-    app.add_option("--maps", maps, "height, normal, or both with a comma, which is the default")
-        ->type_name("NAMES")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_option("--texture-size", texture_size, "Side of the maps in texels, 16 … 16384; default: 2048")
-        ->type_name("N");
-    app.add_option(
-           "--green", green,
-           described("Which way the normal map's green points: up (Blender, glTF, OpenGL; the default) "
-                     "or down (DirectX)"))
-        ->type_name("up|down");
-    app.add_option("--outside", outside,
-                   described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
-                             "model of its own with one frame or as many"))
-        ->type_name("MESH|FILE");
-    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
-        ->type_name("DIR");
+  explicit Arguments(CommandOptions& options)
+      : scene(options, [](const std::string& option) { return decides_geometry(option); }),
+        device(options),
+        common(options) {
+    options.add("-o,--output", output, "DIR", "The folder for height_####.exr and .png and normal_####.png");
+    options.add("--maps", maps, Values::with_commas, "NAMES",
+                "height, normal, or both with a comma, which is the default");
+    options.add("--texture-size", texture_size, "N", "Side of the maps in texels, 16 … 16384; default: 2048");
+    options.add("--green", green, "up|down",
+                described("Which way the normal map's green points: up (Blender, glTF, OpenGL; the default) "
+                          "or down (DirectX)"));
+    options.add("--outside", outside, "MESH|FILE",
+                described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
+                          "model of its own with one frame or as many"));
+    options.add("--shaders", shaders, "DIR",
+                "Take the shaders from this folder instead of the built-in ones");
   }
 
   BakeRequest request() const {
@@ -117,14 +110,14 @@ int run_bake(Arguments& arguments) {
 
 }  // namespace
 
-Command add_bake(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("bake", "Write the wrinkles of frames as maps over the model's uv");
-  app->footer(
+void add_bake(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "bake", "Write the wrinkles of frames as maps over the model's uv",
       "\nplisse bake scene.toml --frames 48 -o maps --texture-size 4096\n"
       "For the posed mesh without wrinkles: plisse export scene.toml --frames 48 --levels 0 --strength 0 -o "
       "mesh.glb");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_bake(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_bake(*arguments); };
 }
 
 }  // namespace plisse::cli

@@ -24,22 +24,19 @@ namespace plisse::cli {
 namespace {
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : device(app), common(app) {
-    app.add_option(
-           "what", what,
-           described(fmt::format("quick (under two minutes), full (twenty), hard (cases that must "
-                                 "hold; exit code 1 where one does not), smoke (whether it runs at all: its "
-                                 "numbers say nothing), and suites by name, default all: {}",
-                                 fmt::join(bench::suite_names(), ", "))))
-        ->type_name("quick|full|hard|NAME…");
-    app.add_option(
-           "-o,--output", folder,
-           described("The folder for index.html, report.md, rows.csv, plots and pictures; default: bench"))
-        ->type_name("DIR");
-    app.add_option(
-           "--assets", assets,
-           described("The folder of the project's own scenes; default: the one that came with the program"))
-        ->type_name("DIR");
+  explicit Arguments(CommandOptions& options) : device(options), common(options) {
+    options.add(
+        "what", what, Values::many, "quick|full|hard|NAME…",
+        described(fmt::format("quick (under two minutes), full (twenty), hard (cases that must "
+                              "hold; exit code 1 where one does not), smoke (whether it runs at all: its "
+                              "numbers say nothing), and suites by name, default all: {}",
+                              fmt::join(bench::suite_names(), ", "))));
+    options.add(
+        "-o,--output", folder, "DIR",
+        described("The folder for index.html, report.md, rows.csv, plots and pictures; default: bench"));
+    options.add(
+        "--assets", assets, "DIR",
+        described("The folder of the project's own scenes; default: the one that came with the program"));
   }
   DeviceArguments device;
   CommonArguments common;
@@ -118,14 +115,14 @@ int run_bench(Arguments& arguments) {
 
 }  // namespace
 
-Command add_bench(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("bench", "Measure settings: time against error");
-  app->footer(
-      "\nplisse bench quick                    everything, coarsely, into bench/index.html\n"
-      "plisse bench relaxation -o relax      one suite in full\n"
-      "plisse bench hard                     cases that must hold, into bench/hard.md");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_bench(*arguments); }};
+void add_bench(CommandLine& line) {
+  CommandOptions& options =
+      line.command("bench", "Measure settings: time against error",
+                   "\nplisse bench quick                    everything, coarsely, into bench/index.html\n"
+                   "plisse bench relaxation -o relax      one suite in full\n"
+                   "plisse bench hard                     cases that must hold, into bench/hard.md");
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_bench(*arguments); };
 }
 
 }  // namespace plisse::cli

@@ -1,15 +1,13 @@
 #include "cli/cache_arguments.h"
 
-#include "cli/arguments.h"
 #include "pipeline/solved_cache.h"
 
 namespace plisse::cli {
 
-CacheArguments::CacheArguments(CLI::App& app) {
-  app.add_option("--cache-dir", folder_,
-                 described("Where solved answers are kept and looked up (up to 1 GiB); 'none': nowhere; "
-                           "default: $PLISSE_CACHE, or plisse in $XDG_CACHE_HOME or ~/.cache"))
-      ->type_name("DIR|none");
+CacheArguments::CacheArguments(CommandOptions& options) {
+  options.add("--cache-dir", folder_, "DIR|none",
+              described("Where solved answers are kept and looked up (up to 1 GiB); 'none': nowhere; "
+                        "default: $PLISSE_CACHE, or plisse in $XDG_CACHE_HOME or ~/.cache"));
 }
 
 std::filesystem::path CacheArguments::folder() const {

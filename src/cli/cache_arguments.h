@@ -1,17 +1,18 @@
 // --cache-dir of the commands that solve, and what their reports say of it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "cli/command_line.h"
 
 namespace plisse::cli {
 
 // Where solved base surfaces and fields are kept.
 class CacheArguments {
  public:
-  explicit CacheArguments(CLI::App& app);
+  explicit CacheArguments(CommandOptions& options);
   std::filesystem::path folder() const;  // empty: nowhere
   bool given() const { return !folder_.empty(); }
 

@@ -1,28 +1,22 @@
-// A command of the program: what it adds to the command line, and what it does.
+// The commands of the program: each adds itself, with its options, to the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include "cli/command_line.h"
 
 namespace plisse::cli {
 
-struct Command {
-  CLI::App* app = nullptr;
-  std::function<int()> run;  // → exit code; throws Error
-};
-
-Command add_render(CLI::App& program);
-Command add_info(CLI::App& program);
-Command add_init(CLI::App& program);
-Command add_verify(CLI::App& program);
-Command add_size(CLI::App& program);
-Command add_paint(CLI::App& program);
-Command add_export(CLI::App& program);
-Command add_measure(CLI::App& program);
-Command add_bake(CLI::App& program);
-Command add_drape(CLI::App& program);
-Command add_wrinkle(CLI::App& program);
-Command add_bench(CLI::App& program);
+void add_render(CommandLine& line);
+void add_info(CommandLine& line);
+void add_init(CommandLine& line);
+void add_verify(CommandLine& line);
+void add_size(CommandLine& line);
+void add_paint(CommandLine& line);
+void add_export(CommandLine& line);
+void add_measure(CommandLine& line);
+void add_bake(CommandLine& line);
+void add_drape(CommandLine& line);
+void add_wrinkle(CommandLine& line);
+void add_bench(CommandLine& line);
 
 // argv → command → exit code (docs/contract.md). Throws Error, its text complete.
 int run(int argc, const char* const* argv);

@@ -29,58 +29,42 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app), cache(app) {
-    app.add_option("input", input,
-                   described("A drape scene (docs/drape.md lists its keys), or a set-up of the TFW authors"))
-        ->type_name("SCENE.toml|SETUP.json");
-    app.add_option("--example", example, "A built-in scene instead; --list-examples names them")
-        ->type_name("NAME");
-    app.add_flag("--list-examples", list, "Print the built-in scenes and end");
-    app.add_option("--vertices", vertices, "About how many vertices an example's mesh has")->type_name("N");
-    app.add_option("--seed", seed, "Another seed, another mesh of the same example (default 1)")
-        ->type_name("S");
-    app.add_option("--model", model,
-                   described("tension-field (compression costs nothing; the default) or stvk (a St. "
-                             "Venant-Kirchhoff shell, which buckles by itself)"))
-        ->type_name("tension-field|stvk");
-    app.add_option("--residual", residual,
-                   described("Share of its stiffness that slack cloth keeps, 0 to 1: spreads compression "
-                             "that tension field theory leaves undetermined; 1e-4 is little"))
-        ->type_name("ETA");
-    app.add_option(
-           "--perturb", perturb,
-           described("Move the start at random by up to this length, so that what can buckle does; default: "
-                     "a tenth of the thickness with stvk, else 0"))
-        ->type_name("LENGTH");
-    app.add_option("--start", start, "An OBJ with the positions to start from, vertex by vertex")
-        ->type_name("FILE");
-    app.add_option("--frames", frames,
-                   described("Frames of a scene that moves: 1-24, 12; default: the last alone"))
-        ->type_name("SELECTION");
-    app.add_option(
-           "-o,--output", output,
-           described(
-               "base.ply, or base_####.ply for a file a frame; several frames in one file are the first "
-               "as PLY and all as a point cache (base.pc2) that 'plisse render --cache' reads"))
-        ->type_name("FILE");
-    app.add_option("--steps", steps,
-                   described("In how many frames the load comes on; default: the scene's, an example's 24"))
-        ->type_name("N");
-    app.add_option(
-           "--tolerance", tolerance,
-           described("Converged where unbalanced forces are this share of those that meet (default 1e-8)"))
-        ->type_name("SHARE");
-    app.add_option("--friction", friction,
-                   described("Coefficient of friction on obstacles, 0 to 1000 (default: the scene's)"))
-        ->type_name("MU");
-    app.add_option(
-           "--cost", cost,
-           described(
-               "Solve an example at each of these sizes, separated by commas, each from its start to full "
-               "load in one go, and plot what it costs: -o cost.svg"))
-        ->type_name("N,N,…");
-    app.add_option("--iterations", iterations, "At most so many Newton steps a frame (default 1000)")
-        ->type_name("N");
+  explicit Arguments(CommandOptions& options) : common(options), cache(options) {
+    options.add("input", input, "SCENE.toml|SETUP.json",
+                described("A drape scene (docs/drape.md lists its keys), or a set-up of the TFW authors"));
+    options.add("--example", example, "NAME", "A built-in scene instead; --list-examples names them");
+    options.flag("--list-examples", list, "Print the built-in scenes and end");
+    options.add("--vertices", vertices, "N", "About how many vertices an example's mesh has");
+    options.add("--seed", seed, "S", "Another seed, another mesh of the same example (default 1)");
+    options.add("--model", model, "tension-field|stvk",
+                described("tension-field (compression costs nothing; the default) or stvk (a St. "
+                          "Venant-Kirchhoff shell, which buckles by itself)"));
+    options.add("--residual", residual, "ETA",
+                described("Share of its stiffness that slack cloth keeps, 0 to 1: spreads compression "
+                          "that tension field theory leaves undetermined; 1e-4 is little"));
+    options.add(
+        "--perturb", perturb, "LENGTH",
+        described("Move the start at random by up to this length, so that what can buckle does; default: "
+                  "a tenth of the thickness with stvk, else 0"));
+    options.add("--start", start, "FILE", "An OBJ with the positions to start from, vertex by vertex");
+    options.add("--frames", frames, "SELECTION",
+                described("Frames of a scene that moves: 1-24, 12; default: the last alone"));
+    options.add(
+        "-o,--output", output, "FILE",
+        described("base.ply, or base_####.ply for a file a frame; several frames in one file are the first "
+                  "as PLY and all as a point cache (base.pc2) that 'plisse render --cache' reads"));
+    options.add("--steps", steps, "N",
+                described("In how many frames the load comes on; default: the scene's, an example's 24"));
+    options.add(
+        "--tolerance", tolerance, "SHARE",
+        described("Converged where unbalanced forces are this share of those that meet (default 1e-8)"));
+    options.add("--friction", friction, "MU",
+                described("Coefficient of friction on obstacles, 0 to 1000 (default: the scene's)"));
+    options.add(
+        "--cost", cost, "N,N,…",
+        described("Solve an example at each of these sizes, separated by commas, each from its start to full "
+                  "load in one go, and plot what it costs: -o cost.svg"));
+    options.add("--iterations", iterations, "N", "At most so many Newton steps a frame (default 1000)");
   }
 
   CommonArguments common;
@@ -296,16 +280,15 @@ int run_drape(Arguments& arguments) {
 
 }  // namespace
 
-Command add_drape(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("drape", "Solve the equilibrium of cloth: base surfaces for wrinkles");
-  app->footer(
+void add_drape(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "drape", "Solve the equilibrium of cloth: base surfaces for wrinkles",
       "\nplisse drape --example twisted-cylinder --vertices 1309 -o base.ply\n"
       "plisse drape --example curtain --frames 1-24 -o curtain.ply    curtain.ply and curtain.pc2, for\n"
       "                                                               'plisse render curtain.ply --cache "
       "curtain.pc2'");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_drape(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_drape(*arguments); };
 }
 
 }  // namespace plisse::cli

@@ -20,26 +20,21 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app)
-      : scene(app, [](const std::string& option) { return decides_geometry(option); }),
-        device(app),
-        common(app) {
-    app.add_option(
-           "-o,--output", output,
-           described("Where to: mesh_####.ply, .obj or .glb, a file a frame; or a point cache .pc2 or "
-                     ".mdd, which moves the vertices of an OBJ of the same scene"))
-        ->type_name("PATTERN|CACHE");
-    app.add_option(
-           "--levels", levels,
-           described("Halve the mesh's edges this often; default: as often as the waves need. Allowed: "
-                     "0 … 8."))
-        ->type_name("N");
-    app.add_option("--outside", outside,
-                   described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
-                             "model of its own with one frame or as many"))
-        ->type_name("MESH|FILE");
-    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
-        ->type_name("DIR");
+  explicit Arguments(CommandOptions& options)
+      : scene(options, [](const std::string& option) { return decides_geometry(option); }),
+        device(options),
+        common(options) {
+    options.add("-o,--output", output, "PATTERN|CACHE",
+                described("Where to: mesh_####.ply, .obj or .glb, a file a frame; or a point cache .pc2 or "
+                          ".mdd, which moves the vertices of an OBJ of the same scene"));
+    options.add("--levels", levels, "N",
+                described("Halve the mesh's edges this often; default: as often as the waves need. Allowed: "
+                          "0 … 8."));
+    options.add("--outside", outside, "MESH|FILE",
+                described("A body that the wrinkles keep out of: a mesh or material of the model, or a "
+                          "model of its own with one frame or as many"));
+    options.add("--shaders", shaders, "DIR",
+                "Take the shaders from this folder instead of the built-in ones");
   }
 
   SceneArguments scene;
@@ -94,14 +89,14 @@ int run_export(Arguments& arguments) {
 
 }  // namespace
 
-Command add_export(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("export", "Write the wrinkled frames as meshes or as a point cache");
-  app->footer(
+void add_export(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "export", "Write the wrinkled frames as meshes or as a point cache",
       "\nplisse export scene.toml --frames 1-48 -o mesh_####.glb\n"
       "plisse export scene.toml --frames 1 -o sleeve.obj && plisse export scene.toml -o sleeve.pc2\n"
       "Metres, y up. With --strength 0 the posed model without its wrinkles.");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_export(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_export(*arguments); };
 }
 
 }  // namespace plisse::cli

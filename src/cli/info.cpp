@@ -28,17 +28,16 @@ using nlohmann::ordered_json;
 constexpr double default_frames_per_second = 24;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app)
-      : scene(app,
+  explicit Arguments(CommandOptions& options)
+      : scene(options,
               [](const std::string& option) {
                 return option == "--units" || option == "--up" || option == "--cache" || option == "--limits";
               }),
-        common(app) {
-    app.add_option(
-           "--fabric", fabric,
-           described("Tell where the meshes are finer or coarser than this fabric needs: B,E or a name, as "
-                     "plisse size has it"))
-        ->type_name("B,E|NAME");
+        common(options) {
+    options.add(
+        "--fabric", fabric, "B,E|NAME",
+        described("Tell where the meshes are finer or coarser than this fabric needs: B,E or a name, as "
+                  "plisse size has it"));
   }
 
   SceneArguments scene;
@@ -303,12 +302,12 @@ int run_info(Arguments& arguments) {
 
 }  // namespace
 
-Command add_info(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("info", "Tell what is in a model: meshes, materials, clips, cameras, textures");
-  app->footer("\nThe names of meshes and materials are those that --only and --exclude take.");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_info(*arguments); }};
+void add_info(CommandLine& line) {
+  CommandOptions& options =
+      line.command("info", "Tell what is in a model: meshes, materials, clips, cameras, textures",
+                   "\nThe names of meshes and materials are those that --only and --exclude take.");
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_info(*arguments); };
 }
 
 }  // namespace plisse::cli

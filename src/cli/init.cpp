@@ -28,25 +28,20 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app) {
-    app.add_option("model", model,
-                   described("A model: a file, a numbered sequence (drape_####.obj) or its folder"))
-        ->type_name("MODEL");
-    app.add_option("-o,--output", output,
-                   "The scene file to write; by default the model's name with .toml, here")
-        ->type_name("SCENE.toml");
-    app.add_flag("--overwrite", overwrite, "Replace a scene file that exists");
-    app.add_option("--limits", options.limits.factor,
-                   "Factor on what the model's file may ask for, as in a scene")
-        ->type_name("FACTOR")
-        ->check(CLI::Range(1e-6, 1e6));
-    app.add_flag("--keys-markdown", keys_markdown, "")
-        ->group("");  // makes docs/scene.md; of no use to anybody else
+  explicit Arguments(CommandOptions& options) : common(options) {
+    options.add("model", model, "MODEL",
+                described("A model: a file, a numbered sequence (drape_####.obj) or its folder"));
+    options.add("-o,--output", output, "SCENE.toml",
+                "The scene file to write; by default the model's name with .toml, here");
+    options.flag("--overwrite", overwrite, "Replace a scene file that exists");
+    options.add("--limits", import_options.limits.factor, 1e-6, 1e6, "FACTOR",
+                "Factor on what the model's file may ask for, as in a scene");
+    options.hidden_flag("--keys-markdown", keys_markdown);  // makes docs/scene.md; of no use to anybody else
   }
 
   CommonArguments common;
   std::string model, output;
-  io::ImportOptions options;
+  io::ImportOptions import_options;
   bool overwrite = false, keys_markdown = false;
 };
 
@@ -115,7 +110,7 @@ int run_init(Arguments& arguments) {
   }
   const fs::path scene =
       arguments.output.empty() ? default_output(arguments.model) : fs::path(arguments.output);
-  if (CLI::detail::to_lower(scene.extension().string()) != ".toml") {
+  if (lower_case(scene.extension().string()) != ".toml") {
     throw Error(ExitCode::bad_input,
                 fmt::format("--output: '{}' is no scene file; end it in .toml", scene.string()));
   }
@@ -124,7 +119,7 @@ int run_init(Arguments& arguments) {
     throw Error(ExitCode::no_output,
                 fmt::format("{}: stands there already; --overwrite replaces it", scene.string()));
   }
-  const io::Model model = io::import_model(arguments.model, arguments.options);
+  const io::Model model = io::import_model(arguments.model, arguments.import_options);
   const std::string text = scene_text(path_from_scene(arguments.model, scene), notes_on(model));
   // A name that TOML cannot hold is to fail here, not at the next command. The model is looked up through the
   // scene's folder; where that cannot be made, writing says why.
@@ -141,11 +136,12 @@ int run_init(Arguments& arguments) {
 
 }  // namespace
 
-Command add_init(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("init", "Write a commented scene file for a model");
-  app->footer("\nThe scene renders as the bare model does; every key stands in it with its default.");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_init(*arguments); }};
+void add_init(CommandLine& line) {
+  CommandOptions& options =
+      line.command("init", "Write a commented scene file for a model",
+                   "\nThe scene renders as the bare model does; every key stands in it with its default.");
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_init(*arguments); };
 }
 
 }  // namespace plisse::cli

@@ -17,14 +17,12 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app) {
-    app.add_option("input", mesh, "A mesh, in any format that models are read in")->type_name("MESH");
-    app.add_option(
-           "--base", base,
-           described("The surface without its waves, over which heights count; default: the mesh made "
-                     "smooth, for waves shorter than a third of it"))
-        ->type_name("MESH");
-    app.add_option("--up", up, "The axis that points up in the files")->type_name("x|y|z");
+  explicit Arguments(CommandOptions& options) : common(options) {
+    options.add("input", mesh, "MESH", "A mesh, in any format that models are read in");
+    options.add("--base", base, "MESH",
+                described("The surface without its waves, over which heights count; default: the mesh made "
+                          "smooth, for waves shorter than a third of it"));
+    options.add("--up", up, "x|y|z", "The axis that points up in the files");
   }
   CommonArguments common;
   std::string mesh, base, up;
@@ -78,11 +76,11 @@ int run_measure(Arguments& arguments) {
 
 }  // namespace
 
-Command add_measure(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("measure", "Measure the waves on a mesh");
-  app->footer("\nplisse measure fine.ply --base coarse.ply --json -");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_measure(*arguments); }};
+void add_measure(CommandLine& line) {
+  CommandOptions& options = line.command("measure", "Measure the waves on a mesh",
+                                         "\nplisse measure fine.ply --base coarse.ply --json -");
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_measure(*arguments); };
 }
 
 }  // namespace plisse::cli

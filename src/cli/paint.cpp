@@ -19,15 +19,13 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : device(app), common(app) {
-    app.add_option("input", input, described("A paint file; docs/paint.md lists its keys"))
-        ->type_name("PAINT.toml");
-    app.add_option(
-           "-o,--output", folder,
-           described("The folder for bias.ply, bias.png (the uv texture) and preview.png; default: painted"))
-        ->type_name("DIR");
-    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
-        ->type_name("DIR");
+  explicit Arguments(CommandOptions& options) : device(options), common(options) {
+    options.add("input", input, "PAINT.toml", described("A paint file; docs/paint.md lists its keys"));
+    options.add(
+        "-o,--output", folder, "DIR",
+        described("The folder for bias.ply, bias.png (the uv texture) and preview.png; default: painted"));
+    options.add("--shaders", shaders, "DIR",
+                "Take the shaders from this folder instead of the built-in ones");
   }
 
   DeviceArguments device;
@@ -68,15 +66,14 @@ int run_paint(Arguments& arguments) {
 
 }  // namespace
 
-Command add_paint(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("paint", "Paint wrinkles onto the rest pose, from a file of strokes");
-  app->footer(
+void add_paint(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "paint", "Paint wrinkles onto the rest pose, from a file of strokes",
       "\nplisse paint sleeve.paint.toml -o painted          bias.ply, bias.png, preview.png\n"
       "A scene takes it up with [bias] file = \"painted/bias.ply\", or paints itself with [bias] paint = "
       "\"sleeve.paint.toml\".");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_paint(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_paint(*arguments); };
 }
 
 }  // namespace plisse::cli

@@ -23,43 +23,34 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : scene(app), device(app), common(app) {
-    app.add_option(
-           "--aov", aovs,
-           described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
-                     "phase, direction, tension, depth, object (its number), beauty (the picture in linear "
-                     "light), or several with commas"))
-        ->type_name("NAMES")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_flag(
+  explicit Arguments(CommandOptions& options) : scene(options), device(options), common(options) {
+    options.add(
+        "--aov", aovs, Values::with_commas, "NAMES",
+        described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
+                  "phase, direction, tension, depth, object (its number), beauty (the picture in linear "
+                  "light), or several with commas"));
+    options.flag(
         "--displace", displace,
         described("Draw the wrinkles as geometry in place of shading: true silhouettes and shadows"));
-    app.add_option("--levels", levels,
-                   described("With --displace: halve the mesh's edges this often; default: as often as the "
-                             "waves need. Allowed: 0 … 8."))
-        ->type_name("N");
-    app.add_option("--outside", outside,
-                   described("With --displace: a body that the wrinkles keep out of, a mesh or material of "
-                             "the model, or a model of its own with one frame or as many"))
-        ->type_name("MESH|FILE");
-    app.add_option(
-           "--budget", budget,
-           described("Keep a frame, from pose to picture, within so many milliseconds: rounds, interval "
-                     "and samples give way, in this order"))
-        ->type_name("MS");
-    app.add_option("--max-error", max_error,
-                   described("Relax for as many rounds, and as seldom, as keep what one more would move the "
-                             "phases by below so many radians"))
-        ->type_name("E");
-    app.add_option("--state", state,
-                   described("Keep the waves' memory in this file, so that a later run goes on from it"))
-        ->type_name("FILE");
-    app.add_flag("--skip-existing", skip_existing,
+    options.add("--levels", levels, "N",
+                described("With --displace: halve the mesh's edges this often; default: as often as the "
+                          "waves need. Allowed: 0 … 8."));
+    options.add("--outside", outside, "MESH|FILE",
+                described("With --displace: a body that the wrinkles keep out of, a mesh or material of "
+                          "the model, or a model of its own with one frame or as many"));
+    options.add("--budget", budget, "MS",
+                described("Keep a frame, from pose to picture, within so many milliseconds: rounds, interval "
+                          "and samples give way, in this order"));
+    options.add("--max-error", max_error, "E",
+                described("Relax for as many rounds, and as seldom, as keep what one more would move the "
+                          "phases by below so many radians"));
+    options.add("--state", state, "FILE",
+                described("Keep the waves' memory in this file, so that a later run goes on from it"));
+    options.flag("--skip-existing", skip_existing,
                  described("Leave frames as they are whose file is whole and came from the same input"));
-    app.add_flag("--overwrite", overwrite, "Write all frames anew; this is the default");
-    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
-        ->type_name("DIR");
+    options.flag("--overwrite", overwrite, "Write all frames anew; this is the default");
+    options.add("--shaders", shaders, "DIR",
+                "Take the shaders from this folder instead of the built-in ones");
   }
 
   RenderRequest request() const {
@@ -186,15 +177,15 @@ int run_render(Arguments& arguments) {
 
 }  // namespace
 
-Command add_render(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("render", "Render a scene or a model to PNG frames");
-  app->footer(
+void add_render(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "render", "Render a scene or a model to PNG frames",
       "\nplisse render Fox.glb                              every frame, camera and wavelength fitted, into "
       "frames/\n"
       "plisse render scene.toml --frames 1-48x2 -o out_####.png\n"
       "plisse render shirt.fbx --wavelength \"12 mm\" --exclude Face --camera 30,10,85");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_render(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_render(*arguments); };
 }
 
 }  // namespace plisse::cli

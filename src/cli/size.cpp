@@ -27,24 +27,20 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app) {
-    app.add_option(
-           "panels", panels,
-           described("A panel file (docs/sizing.md): outlines, fabrics, features, seams; or a GarmentCode "
-                     "pattern, with --fabric. Meshes and sizing maps are written"))
-        ->type_name("PANEL.toml|PATTERN.json");
-    app.add_option("-o,--output", folder,
-                   "Where the files of a panel file go; by default a folder of its name")
-        ->type_name("DIR");
-    app.add_option(
-           "--fabric", fabric,
-           described("A fabric by name, or bending stiffness and Young's modulus, units allowed: "
-                     "\"2e-6,3e5\" (N·m, N/m²), \"0.02 gf·cm²/cm,0.3 MPa\"; four numbers: weft, then warp"))
-        ->type_name("B,E|NAME");
-    app.add_option("--fabric-range", range,
-                   described("What a system takes for its extremes; default 1e-9,1e-3,2e3,2e6,2.5mm,50mm"))
-        ->type_name("Bmin,Bmax,Emin,Emax,rmin,rmax");
-    app.add_flag("--list-fabrics", list, "Print the known fabrics and end");
+  explicit Arguments(CommandOptions& options) : common(options) {
+    options.add(
+        "panels", panels, "PANEL.toml|PATTERN.json",
+        described("A panel file (docs/sizing.md): outlines, fabrics, features, seams; or a GarmentCode "
+                  "pattern, with --fabric. Meshes and sizing maps are written"));
+    options.add("-o,--output", folder, "DIR",
+                "Where the files of a panel file go; by default a folder of its name");
+    options.add(
+        "--fabric", fabric, "B,E|NAME",
+        described("A fabric by name, or bending stiffness and Young's modulus, units allowed: "
+                  "\"2e-6,3e5\" (N·m, N/m²), \"0.02 gf·cm²/cm,0.3 MPa\"; four numbers: weft, then warp"));
+    options.add("--fabric-range", range, "Bmin,Bmax,Emin,Emax,rmin,rmax",
+                described("What a system takes for its extremes; default 1e-9,1e-3,2e3,2e6,2.5mm,50mm"));
+    options.flag("--list-fabrics", list, "Print the known fabrics and end");
   }
 
   CommonArguments common;
@@ -248,11 +244,11 @@ int run_size(Arguments& arguments) {
 
 }  // namespace
 
-Command add_size(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("size", "Tell how fine the mesh of a fabric must be, and mesh panels so");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_size(*arguments); }};
+void add_size(CommandLine& line) {
+  CommandOptions& options =
+      line.command("size", "Tell how fine the mesh of a fabric must be, and mesh panels so");
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_size(*arguments); };
 }
 
 }  // namespace plisse::cli

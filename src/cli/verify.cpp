@@ -22,10 +22,12 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app)
-      : scene(app, [](const std::string& option) { return option != "--output"; }), device(app), common(app) {
-    app.add_option("--shaders", shaders, "Take the shaders from this folder instead of the built-in ones")
-        ->type_name("DIR");
+  explicit Arguments(CommandOptions& options)
+      : scene(options, [](const std::string& option) { return option != "--output"; }),
+        device(options),
+        common(options) {
+    options.add("--shaders", shaders, "DIR",
+                "Take the shaders from this folder instead of the built-in ones");
   }
 
   SceneArguments scene;
@@ -116,13 +118,13 @@ int run_verify(Arguments& arguments) {
 
 }  // namespace
 
-Command add_verify(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("verify", "Compare the shaders with the reference, pass by pass");
-  app->footer(
+void add_verify(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "verify", "Compare the shaders with the reference, pass by pass",
       "\nWithout --frames at most eight frames spread over the clip. Exit code 1 where a tolerance is "
       "exceeded or nothing is in view.");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_verify(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_verify(*arguments); };
 }
 
 }  // namespace plisse::cli

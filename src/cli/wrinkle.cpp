@@ -32,94 +32,71 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CLI::App& app) : common(app), solved(app) {
-    app.add_option(
-           "input", input,
-           described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
-                     "authors; what is not draped yet is draped first"))
-        ->type_name("BASE.ply|BASE_####.ply|SCENE.toml|SETUP.json");
-    app.add_option(
-           "--frames", frames,
-           described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache): which; "
-                     "default all. Those before are solved on the way."))
-        ->type_name("RANGES");
-    app.add_option("--cache", cache, "A point cache that moves BASE.ply: .pc2 or .mdd")->type_name("FILE");
-    app.add_option("--fade", fade,
-                   described("Over a sequence: how many frames show both fields where the number of waves "
-                             "changes (default 6)"))
-        ->type_name("FRAMES");
-    app.add_option("--hysteresis", hysteresis,
-                   described("Over a sequence: how many times as much as the new number of waves the old one "
-                             "must cost before it changes (default 9)"))
-        ->type_name("X");
-    app.add_option("--example", example,
-                   "A built-in scene instead; 'plisse drape --list-examples' names them")
-        ->type_name("NAME");
-    app.add_option("--vertices", vertices, "About how many vertices an example's mesh has")->type_name("N");
-    app.add_option("--seed", seed, "Another seed, another mesh of the same example (default 1)")
-        ->type_name("S");
-    app.add_option(
-           "-o,--output", output,
-           described("field.ply (the default; field_####.ply of a sequence), or NAME_amplitude_REST.txt "
-                     "for the authors' three text files"))
-        ->type_name("FILE");
-    app.add_option("--mesh", mesh,
-                   described("The waves as geometry, too: .ply, .obj or .glb, with normals and uv"))
-        ->type_name("FILE");
-    app.add_option("--levels", levels,
-                   described("Halve the mesh's edges this often for --mesh; default: as often as the waves "
-                             "need. Allowed: 0 … 8."))
-        ->type_name("N");
-    app.add_flag("--mesh-v1", mesh_v1,
+  explicit Arguments(CommandOptions& options) : common(options), solved(options) {
+    options.add("input", input, "BASE.ply|BASE_####.ply|SCENE.toml|SETUP.json",
+                described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
+                          "authors; what is not draped yet is draped first"));
+    options.add("--frames", frames, "RANGES",
+                described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache): which; "
+                          "default all. Those before are solved on the way."));
+    options.add("--cache", cache, "FILE", "A point cache that moves BASE.ply: .pc2 or .mdd");
+    options.add("--fade", fade, "FRAMES",
+                described("Over a sequence: how many frames show both fields where the number of waves "
+                          "changes (default 6)"));
+    options.add("--hysteresis", hysteresis, "X",
+                described("Over a sequence: how many times as much as the new number of waves the old one "
+                          "must cost before it changes (default 9)"));
+    options.add("--example", example, "NAME",
+                "A built-in scene instead; 'plisse drape --list-examples' names them");
+    options.add("--vertices", vertices, "N", "About how many vertices an example's mesh has");
+    options.add("--seed", seed, "S", "Another seed, another mesh of the same example (default 1)");
+    options.add("-o,--output", output, "FILE",
+                described("field.ply (the default; field_####.ply of a sequence), or NAME_amplitude_REST.txt "
+                          "for the authors' three text files"));
+    options.add("--mesh", mesh, "FILE",
+                described("The waves as geometry, too: .ply, .obj or .glb, with normals and uv"));
+    options.add("--levels", levels, "N",
+                described("Halve the mesh's edges this often for --mesh; default: as often as the waves "
+                          "need. Allowed: 0 … 8."));
+    options.flag("--mesh-v1", mesh_v1,
                  "Waves of --mesh lean with the surface's curvature (v1), which hardly shows");
-    app.add_option("--wrinkle-free", rule,
-                   described("Which faces have no waves: by the paper's rule (the default) or its authors' "
-                             "program's"))
-        ->type_name("paper|authors");
-    app.add_flag(
+    options.add("--wrinkle-free", rule, "paper|authors",
+                described("Which faces have no waves: by the paper's rule (the default) or its authors' "
+                          "program's"));
+    options.flag(
         "--free-held", free_held,
         "Waves also where the surface was held while draping; without it their amplitude is 0 there");
-    app.add_option("--without", without,
-                   described("Leave something out, to see what it does: v1 (waves lean with the surface's "
-                             "curvature), v2 (waves bulge sideways) or relaxation (phases need not close "
-                             "where there are no waves); may be given more than once"))
-        ->type_name("v1|v2|relaxation")
-        ->take_all();
-    app.add_option(
-           "--curvature", curvature,
-           described("From quadratics fitted over so many edges round a vertex (default 2), or mid-edge "
-                     "normals"))
-        ->type_name("EDGES|mid-edge");
-    app.add_option("--curvature-factor", factor,
-                   described("Multiplies the curvature term; 1.44 is what the authors' program has"))
-        ->type_name("X");
-    app.add_option("--frequency", frequency, "Start with waves so many times as dense (default 1)")
-        ->type_name("X");
-    app.add_flag(
+    options.add("--without", without, Values::all_given, "v1|v2|relaxation",
+                described("Leave something out, to see what it does: v1 (waves lean with the surface's "
+                          "curvature), v2 (waves bulge sideways) or relaxation (phases need not close "
+                          "where there are no waves); may be given more than once"));
+    options.add("--curvature", curvature, "EDGES|mid-edge",
+                described("From quadratics fitted over so many edges round a vertex (default 2), or mid-edge "
+                          "normals"));
+    options.add("--curvature-factor", factor, "X",
+                described("Multiplies the curvature term; 1.44 is what the authors' program has"));
+    options.add("--frequency", frequency, "X", "Start with waves so many times as dense (default 1)");
+    options.flag(
         "--starts", all_starts,
         described(
             "Start with waves .5, .7, 1.4 and 2 times as dense, too, and take the lowest energy, patch by "
             "patch"));
-    app.add_flag(
+    options.flag(
         "--local-law", local_law,
         described(
             "Wavelengths by Vandeparre's law of the distance from where the surface is held, and nothing "
             "solved, to see what the solve is for"));
-    app.add_flag(
+    options.flag(
         "--crest-compression", crest_compression,
         described("Let compression along the crests count where there is some both ways, as the paper's "
                   "energy has it; without, it costs nothing"));
-    app.add_option("--cost", cost,
-                   described("Solve an example at each of these sizes, separated by commas, three times, and "
-                             "plot what it costs: -o cost.svg"))
-        ->type_name("N,N,…");
-    app.add_option("--iterations", iterations, "At most so many Newton steps (default 500)")->type_name("N");
-    app.add_option(
-           "--evaluate", evaluate,
-           described("Solve nothing: the energy of a field in two text files, an amplitude a vertex and "
-                     "a difference of phase an edge"))
-        ->type_name("AMPLITUDE DPHI")
-        ->expected(2);
+    options.add("--cost", cost, "N,N,…",
+                described("Solve an example at each of these sizes, separated by commas, three times, and "
+                          "plot what it costs: -o cost.svg"));
+    options.add("--iterations", iterations, "N", "At most so many Newton steps (default 500)");
+    options.add("--evaluate", evaluate, Values::two, "AMPLITUDE DPHI",
+                described("Solve nothing: the energy of a field in two text files, an amplitude a vertex and "
+                          "a difference of phase an edge"));
   }
 
   CommonArguments common;
@@ -396,16 +373,15 @@ int run_wrinkle(Arguments& arguments) {
 
 }  // namespace
 
-Command add_wrinkle(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("wrinkle", "Solve amplitude and phase of the wrinkles on a base surface");
-  app->footer(
+void add_wrinkle(CommandLine& line) {
+  CommandOptions& options = line.command(
+      "wrinkle", "Solve amplitude and phase of the wrinkles on a base surface",
       "\nplisse drape --example twisted-cylinder -o base.ply && plisse wrinkle base.ply -o field.ply\n"
       "A scene whose model is base.ply takes it up with [bias] field = \"field.ply\", use = \"direct\".\n"
       "plisse wrinkle base_####.ply -o field_####.ply --mesh waves_####.ply    over time: waves glide, not "
       "pop");
-  auto arguments = std::make_shared<Arguments>(*app);
-  return {app, [arguments] { return run_wrinkle(*arguments); }};
+  auto arguments = std::make_shared<Arguments>(options);
+  options.run = [arguments] { return run_wrinkle(*arguments); };
 }
 
 }  // namespace plisse::cli
