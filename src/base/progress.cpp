@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <mutex>
 
+#include "base/clock.h"
+
 namespace plisse {
 namespace {
 
@@ -61,7 +63,7 @@ Progress::Style Progress::style_for_stderr(bool quiet) {
   return isatty(STDERR_FILENO) == 1 ? Style::bar : Style::lines;
 }
 
-Progress::Progress(Style style) : style_(style), start_(Clock::now()) {}
+Progress::Progress(Style style) : style_(style), start_(wall_seconds()) {}
 
 Progress::~Progress() {
   if (style_ != Style::bar) return;
@@ -78,15 +80,13 @@ void Progress::wipe() {
 
 void Progress::update(int done, int total, std::string_view what) {
   if (style_ == Style::none) return;
-  const auto now = Clock::now();
-  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double now = wall_seconds(), seconds = now - start_;
   if (style_ == Style::lines) {
     say(fmt::format("{}\n", progress_line(done, total, seconds, what)));
     return;
   }
-  using namespace std::chrono_literals;
   const std::lock_guard lock(bar_mutex);
-  if (bar_on_screen && done < total && now - drawn_ < 50ms) return;  // 20 a second are enough for an eye
+  if (bar_on_screen && done < total && now - drawn_ < 0.05) return;  // 20 a second are enough for an eye
   // One column stays free: some terminals wrap when the last one is written. "\x1b[K" clears what a longer
   // bar left.
   say(fmt::format("\r{}\x1b[K", progress_bar(done, total, seconds, terminal_columns() - 1)));

@@ -1,7 +1,6 @@
 // How far a run is, on stderr: a bar on a terminal, a line a step elsewhere, nothing when quiet.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -34,9 +33,8 @@ class Progress {
   static void wipe();
 
  private:
-  using Clock = std::chrono::steady_clock;
   Style style_;
-  Clock::time_point start_, drawn_;
+  double start_, drawn_ = 0;  // wall_seconds()
 };
 
 }  // namespace plisse

@@ -2,16 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/eigen_glm.h"
 #include "pipeline/drape_examples.h"
 
 namespace plisse::bench {
-
-std::vector<glm::dvec3> points(const shell::Positions& positions) {
-  std::vector<glm::dvec3> result;
-  for (Eigen::Index v = 0; v < positions.cols(); ++v)
-    result.emplace_back(positions(0, v), positions(1, v), positions(2, v));
-  return result;
-}
 
 std::vector<std::uint32_t> corners(const std::vector<shell::Face>& faces) {
   std::vector<std::uint32_t> result;

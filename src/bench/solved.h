@@ -28,7 +28,6 @@ Solved solve(const Setup& setup, const std::string& example, int vertices);
 SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field, FieldUse use,
                          int width, int height);
 
-std::vector<glm::dvec3> points(const shell::Positions& positions);
 std::vector<std::uint32_t> corners(const std::vector<shell::Face>& faces);
 
 }  // namespace plisse::bench

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigen_glm.h"
 #include "base/log.h"
 #include "bench/film.h"
 #include "bench/solved.h"
@@ -40,7 +41,7 @@ class Methods {
         context_(setup.device),
         finest_(solve(setup, example, setup.pick(200, 2000, 4000))),
         solved_(solve(setup, example, coarse(setup))) {
-    base_ = points(finest_.base.surface.positions);
+    base_ = points_to_glm(finest_.base.surface.positions);
     base_triangles_ = corners(finest_.base.surface.topology.faces);
   }
 
@@ -129,7 +130,7 @@ class Methods {
     const WrinkleScene base = read_base(request.output);
     outcomes_.push_back(measured(
         fmt::format("StVK shell, {} vertices{}", drape.vertices, drape.converged ? "" : ", not converged"),
-        drape.wall_s, points(base.surface.positions), corners(base.surface.topology.faces)));
+        drape.wall_s, points_to_glm(base.surface.positions), corners(base.surface.topology.faces)));
   }
 
   void write_rows() {

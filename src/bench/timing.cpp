@@ -1,16 +1,14 @@
 #include "bench/timing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "base/cpu_time.h"
+#include "base/clock.h"
 
 namespace plisse::bench {
 
 Sample now() {
-  const auto wall = std::chrono::steady_clock::now().time_since_epoch();
-  return {std::chrono::duration<double>(wall).count(), cpu_seconds()};
+  return {wall_seconds(), cpu_seconds()};
 }
 
 Sample operator-(const Sample& end, const Sample& begin) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "cli/arguments.h"
@@ -104,7 +104,7 @@ int run_init(Arguments& arguments) {
     write_stdout(scene_reference_markdown());
     return 0;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const double start = wall_seconds();
   if (arguments.model.empty()) {
     throw Error(ExitCode::bad_input, "plisse init: give a MODEL; see 'plisse init --help'");
   }
@@ -128,9 +128,9 @@ int run_init(Arguments& arguments) {
   write_whole_file(scene, text);
 
   if (arguments.common.tables_wanted()) write_stdout(fmt::format("{}\n", scene.string()));
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  write_report({{"outputs", {{{"path", scene.string()}, {"kind", "scene"}}}}, {"wall_s", wall.count()}},
-               arguments.common.json());
+  write_report(
+      {{"outputs", {{{"path", scene.string()}, {"kind", "scene"}}}}, {"wall_s", wall_seconds() - start}},
+      arguments.common.json());
   return 0;
 }
 

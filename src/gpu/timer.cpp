@@ -2,16 +2,11 @@
 
 #include <epoxy/gl.h>
 
-#include <chrono>
 #include <utility>
 
+#include "base/clock.h"
+
 namespace plisse::gpu {
-namespace {
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-}  // namespace
 
 StageTimer::~StageTimer() {
   for (const auto& query : queries_) glDeleteQueries(1, &query.second);
@@ -21,7 +16,7 @@ void StageTimer::begin(const std::string& stage) {
   end();
   current_ = stage;
   if (software_) {
-    started_ = now_ms();
+    started_ = wall_seconds();
   } else {
     unsigned query = 0;
     glCreateQueries(GL_TIME_ELAPSED, 1, &query);
@@ -34,7 +29,7 @@ void StageTimer::end() {
   if (current_.empty()) return;
   if (software_) {
     glFinish();
-    milliseconds_[current_] += now_ms() - started_;
+    milliseconds_[current_] += 1e3 * (wall_seconds() - started_);
   } else {
     glEndQuery(GL_TIME_ELAPSED);
   }

@@ -24,7 +24,7 @@ class StageTimer {
  private:
   bool software_;
   std::string current_;
-  double started_ = 0;
+  double started_ = 0;  // wall_seconds()
   std::map<std::string, double> milliseconds_;
   std::vector<std::pair<std::string, unsigned>> queries_;
 };

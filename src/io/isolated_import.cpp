@@ -31,7 +31,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -39,6 +38,7 @@
 #include <span>
 #include <utility>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -49,8 +49,6 @@ extern char** environ;
 
 namespace plisse::io {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 class File {
  public:
@@ -188,13 +186,13 @@ class Child {
 
   // Until the child has closed its end, is out of time or memory, or the user has had enough.
   void listen() {
-    using std::chrono::milliseconds;
-    const auto deadline = Clock::now() + std::chrono::seconds(limits_.with_factor(limits_.seconds));
+    const double deadline = wall_seconds() + static_cast<double>(limits_.with_factor(limits_.seconds));
+    constexpr int glance_ms = 50;
     std::string heard;
     std::array<char, 4096> buffer;
     while (true) {
       pollfd waiting{pipe_.get(), POLLIN, 0};
-      const int ready = ::poll(&waiting, 1, static_cast<int>(milliseconds(50).count()));
+      const int ready = ::poll(&waiting, 1, glance_ms);
       if (interrupted())
         throw Error(static_cast<ExitCode>(128 + signal_number()),
                     fmt::format("{}: interrupted", path_.string()));
@@ -208,7 +206,7 @@ class Child {
         constexpr std::size_t longest = std::size_t{1} << 20;
         if (heard.size() > longest) return;
       }
-      if (Clock::now() > deadline)
+      if (wall_seconds() > deadline)
         throw Error(
             ExitCode::bad_input,
             fmt::format("{}: {} has not finished reading it after {} s; {}; a file that needs so long raises "
@@ -268,8 +266,8 @@ class Child {
     pid_t ended = 0;
     // One that has closed its pipe is at its end; any other is not waited for.
     if (closed_) {
-      const auto patience = Clock::now() + std::chrono::seconds(1);
-      while ((ended = ::waitpid(id_, &status, WNOHANG)) == 0 && Clock::now() < patience) ::usleep(1000);
+      const double patience = wall_seconds() + 1;
+      while ((ended = ::waitpid(id_, &status, WNOHANG)) == 0 && wall_seconds() < patience) ::usleep(1000);
     }
     // Not yet waited for, so the number is still this child's.
     if (ended == 0) {

@@ -14,6 +14,7 @@
 #include <queue>
 #include <utility>
 
+#include "base/eigen_glm.h"
 #include "mesh/triangle_tree.h"
 
 namespace plisse {
@@ -298,10 +299,7 @@ std::optional<double> wavelength_away_from(const Rim& rim, double guess, const H
 glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
-    const auto x = [&](std::size_t c) {
-      const glm::dvec3 p = field.base[field.triangles[t + c]];
-      return Eigen::Vector3d(p.x, p.y, p.z);
-    };
+    const auto x = [&](std::size_t c) { return to_eigen(field.base[field.triangles[t + c]]); };
     const auto value = [&](std::size_t c) { return f[static_cast<Index>(field.triangles[t + c])]; };
     const Eigen::Vector3d b = x(1) - x(0), c = x(2) - x(0), normal = b.cross(c);
     const double square = normal.squaredNorm();
@@ -470,22 +468,19 @@ HeightField height_over_base(const std::vector<glm::dvec3>& positions,
                              const std::vector<std::uint32_t>& triangles, const std::vector<glm::dvec3>& base,
                              const std::vector<std::uint32_t>& base_triangles) {
   const auto normals = vertex_normals(base, base_triangles);
-  Eigen::Matrix3Xd points(3, static_cast<Index>(base.size()));
-  for (std::size_t v = 0; v < base.size(); ++v)
-    points.col(static_cast<Index>(v)) = Eigen::Vector3d(base[v].x, base[v].y, base[v].z);
   std::vector<TriangleTree::Triangle> faces;
   for (std::size_t t = 0; t + 2 < base_triangles.size(); t += 3)
     faces.push_back({base_triangles[t], base_triangles[t + 1], base_triangles[t + 2]});
-  const TriangleTree tree(std::move(points), std::move(faces));
+  const TriangleTree tree(points_to_eigen(base), std::move(faces));
   HeightField field{positions, std::vector<double>(positions.size(), 0.0), triangles, 0};
   if (base_triangles.empty()) return field;
   tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
     const glm::dvec3 x = positions[i];
-    const TriangleTree::Nearest near = tree.nearest({x.x, x.y, x.z});
+    const TriangleTree::Nearest near = tree.nearest(to_eigen(x));
     glm::dvec3 n(0);
     for (std::size_t c = 0; c < 3; ++c)
       n += near.weights[static_cast<Index>(c)] * normals[tree.triangles()[near.triangle][c]];
-    field.base[i] = {near.point.x(), near.point.y(), near.point.z()};
+    field.base[i] = to_glm(near.point);
     field.height[i] = glm::dot(x - field.base[i], n) < 0 ? -near.distance : near.distance;
   });
   return field;

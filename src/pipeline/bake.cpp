@@ -3,12 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
 
+#include "base/clock.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "config/frames.h"
@@ -26,10 +27,6 @@ namespace plisse {
 namespace {
 
 constexpr int widened = 16;  // texels: four levels of mip maps
-
-glm::dvec3 to_glm(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 // What the maps hold at one texel.
 struct Texel {
@@ -170,7 +167,7 @@ void check_request(const BakeRequest& request) {
 }  // namespace
 
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) {
-  const auto started = std::chrono::steady_clock::now();
+  const double started = wall_seconds();
   check_request(request);
   pipeline::LoadedScene scene(request.scene);
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
@@ -202,11 +199,7 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
       scene, frames, {request.device, request.shader_folder}, on_frame,
       [&](int frame, const passes::SurfaceBuffers& surface) {
         const pipeline::WaveSnapshot snapshot = pipeline::read_snapshot(surface);
-        if (outside) {
-          std::vector<glm::dvec3> welded;
-          for (const auto& x : snapshot.positions.colwise()) welded.push_back(to_glm(x));
-          outside->take(frame, welded);
-        }
+        if (outside) outside->take(frame, points_to_glm(snapshot.positions));
         const std::vector<Texel> texels = baker.at(snapshot, outside ? &*outside : nullptr);
         const auto path = [&](const char* kind, const char* ending) {
           const auto named = folder / fmt::format("{}_{:04}{}", kind, frame, ending);
@@ -233,7 +226,7 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
         }
         return folder.string();
       });
-  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report.wall_s = wall_seconds() - started;
   return report;
 }
 

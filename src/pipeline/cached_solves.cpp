@@ -1,19 +1,13 @@
 #include "pipeline/cached_solves.h"
 
-#include <chrono>
 #include <optional>
 #include <variant>
 
+#include "base/clock.h"
 #include "pipeline/archive.h"
 
 namespace plisse::pipeline {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 constexpr double worth_keeping_s = 0.002;  // looking an answer up takes about as long
 
@@ -143,7 +137,7 @@ namespace {
 // With the seconds that it took.
 template <typename Answer>
 std::optional<Answer> answered(const SolvedCache& cache, const Hash& question, Reuse& reuse) {
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   const auto bytes = cache.find(question);
   if (!bytes) return std::nullopt;
   double seconds = 0;
@@ -152,7 +146,7 @@ std::optional<Answer> answered(const SolvedCache& cache, const Hash& question, R
   reader(seconds, answer);
   if (!reader.at_end()) return std::nullopt;
   ++reuse.answers;
-  reuse.saved_s += seconds - since(began);
+  reuse.saved_s += seconds - (wall_seconds() - began);
   return answer;
 }
 
@@ -175,9 +169,9 @@ shell::Equilibrium cached_equilibrium(const SolvedCache& cache, Reuse& reuse, co
   Hasher hasher(question);
   hasher(shell, conditions, loads, start, settings);
   if (auto known = answered<shell::Equilibrium>(cache, question, reuse)) return std::move(*known);
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   shell::Equilibrium found = shell::find_equilibrium(shell, conditions, loads, start, settings, progress);
-  if (found.converged) keep(cache, question, found, since(began));
+  if (found.converged) keep(cache, question, found, wall_seconds() - began);
   return found;
 }
 
@@ -190,9 +184,9 @@ wrinkle::Field cached_field(const SolvedCache& cache, Reuse& reuse, const shell:
   Hasher hasher(question);
   hasher(topology, forms, model, wrinkle_free, clamped, options);
   if (auto known = answered<wrinkle::Field>(cache, question, reuse)) return std::move(*known);
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   wrinkle::Field found = wrinkle::solve_field(topology, forms, model, wrinkle_free, clamped, options);
-  if (found.real.converged && found.whole.converged) keep(cache, question, found, since(began));
+  if (found.real.converged && found.whole.converged) keep(cache, question, found, wall_seconds() - began);
   return found;
 }
 

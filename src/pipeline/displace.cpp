@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "pipeline.h"
@@ -22,10 +23,6 @@ using Eigen::Index;
 // are exact at every vertex.
 constexpr double segments_per_wave = 8;
 constexpr double most_triangles = 4e6;
-
-glm::dvec3 to_glm(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 // The most waves on each edge of the welded surface.
 class EdgeWaves {

@@ -4,12 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -24,7 +25,6 @@ namespace plisse {
 namespace {
 
 using shell::Positions;
-using Clock = std::chrono::steady_clock;
 
 double peak_rss_MiB() {
   rusage usage{};
@@ -39,12 +39,7 @@ std::filesystem::path write_cache(const std::filesystem::path& output, const std
   std::vector<double> times;
   for (const int frame : frames) times.push_back((frame - 1) / 24.0);
   io::PointCacheWriter writer(path, static_cast<std::size_t>(positions.front().cols()), times);
-  for (const Positions& frame : positions) {
-    std::vector<glm::dvec3> points;
-    for (Eigen::Index v = 0; v < frame.cols(); ++v)
-      points.emplace_back(frame(0, v), frame(1, v), frame(2, v));
-    writer.add(points);
-  }
+  for (const Positions& frame : positions) writer.add(points_to_glm(frame));
   writer.commit();
   return path;
 }
@@ -221,7 +216,7 @@ shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shel
 
 DrapeReport drape(const DrapeRequest& request) {
   const DrapeScene& scene = request.scene;
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   const bool pattern = is_frame_pattern(request.output.string());
   if (request.output.extension() != ".ply")
     throw Error(
@@ -294,7 +289,7 @@ DrapeReport drape(const DrapeRequest& request) {
     report.outputs.push_back(write_cache(request.output, cached, cached_positions));
   report.from_cache = reuse.answers;
   report.saved_s = reuse.saved_s;
-  report.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
+  report.wall_s = wall_seconds() - began;
   report.peak_rss_MiB = peak_rss_MiB();
   return report;
 }

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "base/atomic_file.h"
-#include "base/cpu_time.h"
+#include "base/clock.h"
 #include "base/interrupt.h"
 #include "io/svg_plot.h"
 #include "pipeline/drape.h"
@@ -32,11 +30,11 @@ std::vector<DrapeCost> drape_costs(const std::function<DrapeScene(int vertices)>
                   loads.obstacles.empty() ? shell::carried(shell, conditions, scene.start) : scene.start);
     DrapeCost cost;
     const double cpu = cpu_seconds();
-    const auto began = std::chrono::steady_clock::now();
+    const double began = wall_seconds();
     const shell::Equilibrium e = shell::find_equilibrium(
         shell, conditions, loads, start, scene.newton,
         [](const shell::NewtonStep&, const shell::Positions&) { return !interrupted(); });
-    cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    cost.wall_s = wall_seconds() - began;
     cost.cpu_s = cpu_seconds() - cpu;
     cost.vertices = shell.topology.vertex_count;
     cost.iterations = e.iterations;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/eigen_glm.h"
 #include "io/import.h"
 #include "scene/animation.h"
 
@@ -18,10 +19,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Kind = DrapeSettings::Obstacle::Kind;
-
-Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 // A model's welded surface at any moment between its frames.
 class MovingModel {
@@ -51,10 +48,7 @@ class MovingModel {
 
  private:
   Matrix3Xd points_at(int frame) {
-    const auto posed = plisse::posed(animation_.surface(), animation_.pose(frame));
-    Matrix3Xd points(3, static_cast<Eigen::Index>(posed.size()));
-    for (std::size_t v = 0; v < posed.size(); ++v) points.col(static_cast<Eigen::Index>(v)) = eigen(posed[v]);
-    return points;
+    return points_to_eigen(plisse::posed(animation_.surface(), animation_.pose(frame)));
   }
 
   std::string name_;
@@ -72,10 +66,10 @@ struct Placed {
 
   shell::Obstacle at(double t, int frames) const {
     const Isometry3d motion = motion_at(settings.motion, t);
-    const Vector3d first = motion * eigen(settings.at), second = motion * eigen(settings.to);
+    const Vector3d first = motion * to_eigen(settings.at), second = motion * to_eigen(settings.to);
     switch (settings.kind) {
       case Kind::plane:
-        return shell::Plane{first, motion.linear() * eigen(settings.normal)};
+        return shell::Plane{first, motion.linear() * to_eigen(settings.normal)};
       case Kind::capsule:
         return shell::Capsule{first, second, settings.radius};
       case Kind::cylinder:
@@ -92,10 +86,10 @@ struct Placed {
 }  // namespace
 
 Isometry3d motion_at(const DrapeSettings::Motion& motion, double t) {
-  const Vector3d point = eigen(motion.point);
+  const Vector3d point = to_eigen(motion.point);
   Isometry3d result = Isometry3d::Identity();
-  result.translate(point + t * eigen(motion.move));
-  result.rotate(Eigen::AngleAxisd(t * motion.turn * std::numbers::pi / 180, eigen(motion.axis)));
+  result.translate(point + t * to_eigen(motion.move));
+  result.rotate(Eigen::AngleAxisd(t * motion.turn * std::numbers::pi / 180, to_eigen(motion.axis)));
   result.translate(-point);
   return result;
 }

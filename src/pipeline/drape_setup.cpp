@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/units.h"
@@ -33,17 +34,13 @@ using Eigen::Vector3d;
 using shell::Conditions;
 using shell::Positions;
 
-Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 FlatMesh read_mesh(const fs::path& file) {
   const io::ObjFile obj = io::read_obj_file(file);
   if (obj.triangles.empty()) throw Error(ExitCode::bad_input, fmt::format("{}: has no faces", file.string()));
   FlatMesh mesh;
   mesh.points.resize(3, static_cast<Eigen::Index>(obj.positions.size()));
   for (std::size_t v = 0; v < obj.positions.size(); ++v)
-    mesh.points.col(static_cast<Eigen::Index>(v)) = eigen(obj.positions[v]);
+    mesh.points.col(static_cast<Eigen::Index>(v)) = to_eigen(obj.positions[v]);
   for (const auto& triangle : obj.triangles)
     mesh.faces.push_back({static_cast<std::uint32_t>(triangle[0].position),
                           static_cast<std::uint32_t>(triangle[1].position),
@@ -143,7 +140,7 @@ void add_forces(const DrapeSettings& settings, DrapeScene& scene) {
     const auto vertices = picked(force, scene.start);
     if (force.total)
       for (const std::uint32_t v : vertices)
-        loads.forces.col(v) += eigen(*force.total) / static_cast<double>(vertices.size());
+        loads.forces.col(v) += to_eigen(*force.total) / static_cast<double>(vertices.size());
     if (!force.per_length) continue;
     std::vector<bool> among(topology.vertex_count, false);
     for (const std::uint32_t v : vertices) among[v] = true;
@@ -154,7 +151,7 @@ void add_forces(const DrapeSettings& settings, DrapeScene& scene) {
       throw Error(
           ExitCode::bad_input,
           fmt::format("{}: no boundary edge has both of its ends here; 'per_length' needs one", force.place));
-    shell::add_edge_forces(loads, topology, rest, edges, eigen(*force.per_length));
+    shell::add_edge_forces(loads, topology, rest, edges, to_eigen(*force.per_length));
   }
   scene.loads.forces = always.forces;
   scene.growing_forces = growing.forces;
@@ -201,7 +198,7 @@ DrapeScene scene_of(const DrapeSettings& settings) {
     scene.bending = shell::Bending::midedge;
   }
   scene.residual = settings.residual;
-  scene.loads.gravity = eigen(settings.gravity);
+  scene.loads.gravity = to_eigen(settings.gravity);
   scene.loads.pressure = settings.pressure;
   scene.loads.gap = settings.gap;
   scene.newton.tolerance = settings.tolerance;

@@ -1,9 +1,9 @@
 // plisse export: a scene's frames as geometry, wrinkles and all.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "config/frames.h"
@@ -75,7 +75,7 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
 }  // namespace
 
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame) {
-  const auto started = std::chrono::steady_clock::now();
+  const double started = wall_seconds();
   pipeline::LoadedScene scene(request.scene);
   const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_output(request.output, frames);
@@ -116,7 +116,7 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
     cache->commit();
     report.outputs.push_back({request.output, "cache", 0});
   }
-  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report.wall_s = wall_seconds() - started;
   return report;
 }
 

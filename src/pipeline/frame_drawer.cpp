@@ -1,18 +1,13 @@
 #include "pipeline/frame_drawer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "base/clock.h"
 #include "base/colour.h"
 
 namespace plisse::pipeline {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 // The picture was made with premultiplied colours in linear light; PNG wants straight alpha.
 void straighten_alpha(std::vector<std::uint8_t>& rgba) {
@@ -131,10 +126,10 @@ std::shared_ptr<Picture> FrameDrawer::draw(FrameReport& entry, const std::string
     flat_parts_ += left_out.flat;
     fine_parts_ += left_out.too_fine;
     untextured_parts_ += left_out.untextured;
-    const double read = now_ms();
+    const double read = wall_seconds();
     io::Image image{output.width, output.height, target.read_rgba8()};
     if (output.transparent) straighten_alpha(image.rgba);
-    entry.ms["readback"] = now_ms() - read;
+    entry.ms["readback"] = 1e3 * (wall_seconds() - read);
     picture_ = std::make_shared<Picture>(std::move(image));
   }
   picture_step_ = stepper_.step();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "config/frames.h"
 #include "config/suggest.h"
@@ -20,10 +21,6 @@ namespace {
 // Of a model about one unit large: far more than the rounding of files in single precision, and less than
 // shows.
 constexpr double gap = 2e-6;
-
-Eigen::Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 // How far a way that begins outside leads before it enters: 1 where it does not.
 double entry(const shell::TriangleBody& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -101,12 +98,10 @@ shell::TriangleBody Outside::body(int frame, const std::vector<glm::dvec3>& base
       corners.push_back(number[v]);
     }
   }
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(places.size()));
-  for (std::size_t v = 0; v < places.size(); ++v) points.col(static_cast<Eigen::Index>(v)) = eigen(places[v]);
   std::vector<TriangleTree::Triangle> triangles;
   for (std::size_t t = 0; t < corners.size(); t += 3)
     triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
-  return {std::move(points), std::move(triangles), "--outside " + name_};
+  return {points_to_eigen(places), std::move(triangles), "--outside " + name_};
 }
 
 void Outside::take(int frame, const std::vector<glm::dvec3>& welded) {
@@ -117,15 +112,15 @@ void Outside::take(int frame, const std::vector<glm::dvec3>& welded) {
 double Outside::free_share(const glm::dvec3& base, const glm::dvec3& to) const {
   const double way = glm::distance(base, to);
   if (!(way > 0)) return 1;
-  const double above = body_->distance(eigen(base)).value;
+  const double above = body_->distance(to_eigen(base)).value;
   if (above > way) return 1;
-  if (!(above > 0)) return body_->distance(eigen(to)).value < above ? 0 : 1;
-  const double share = entry(*body_, eigen(base), eigen(to));
+  if (!(above > 0)) return body_->distance(to_eigen(to)).value < above ? 0 : 1;
+  const double share = entry(*body_, to_eigen(base), to_eigen(to));
   return share < 1 ? std::max(0.0, share - gap / way) : 1;
 }
 
 glm::dvec3 Outside::normal_near(const glm::dvec3& x) const {
-  const Eigen::Vector3d out = body_->distance(eigen(x)).first;
+  const Eigen::Vector3d out = body_->distance(to_eigen(x)).first;
   return {out.x(), out.y(), out.z()};
 }
 

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "config/scene_file.h"
@@ -16,7 +16,7 @@
 namespace plisse {
 
 PaintReport paint_wrinkles(const PaintRequest& request) {
-  const auto started = std::chrono::steady_clock::now();
+  const double started = wall_seconds();
   const PaintSettings& paint = request.paint;
   if (paint.scene.empty()) {
     throw Error(
@@ -61,7 +61,7 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
     render(preview, {});
     written(folder / "preview.png", "preview");
   }
-  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report.wall_s = wall_seconds() - started;
   return report;
 }
 

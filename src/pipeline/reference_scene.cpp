@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/colour.h"
+#include "base/eigen_glm.h"
 #include "reference/functions.h"
 
 namespace plisse::pipeline {
@@ -10,22 +11,10 @@ namespace {
 
 using Eigen::Index;
 
-Eigen::Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-Eigen::Matrix4d eigen(const glm::dmat4& m) {
-  Eigen::Matrix4d result;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) result(row, column) = m[column][row];
-  }
-  return result;
-}
-
 template <typename Function>
 Eigen::Matrix3Xd columns(std::size_t count, Function&& column) {
   Eigen::Matrix3Xd result(3, static_cast<Index>(count));
-  for (std::size_t i = 0; i < count; ++i) result.col(static_cast<Index>(i)) = eigen(glm::dvec3(column(i)));
+  for (std::size_t i = 0; i < count; ++i) result.col(static_cast<Index>(i)) = to_eigen(glm::dvec3(column(i)));
   return result;
 }
 
@@ -66,7 +55,8 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   mask = vector(scene.waves.mask);
   wander.resize(2, static_cast<Index>(count));
   for (Index v = 0; v < wander.cols(); ++v)
-    wander.col(v) = rest_frames.basis(v).transpose() * eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
+    wander.col(v) =
+        rest_frames.basis(v).transpose() * to_eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
   bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
   initial_phases.resize(static_cast<Index>(count));
   for (std::size_t v = 0; v < count; ++v) {
@@ -75,7 +65,7 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
     const auto& starts = scene.waves.start_direction;
     initial_states.emplace_back();
     if (starts.empty() || starts[v] == glm::dvec3(0)) continue;
-    initial_states.back() = {rest_frames.basis(static_cast<Index>(v)).transpose() * eigen(starts[v]),
+    initial_states.back() = {rest_frames.basis(static_cast<Index>(v)).transpose() * to_eigen(starts[v]),
                              reference::Status::set};
     initial_phases[static_cast<Index>(v)] = scene.waves.start_phase[v];
   }
@@ -91,7 +81,7 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
 
 reference::SkinPose ReferenceScene::pose(const Pose& pose) const {
   reference::SkinPose result;
-  for (const auto& m : pose.palette) result.palette.push_back(eigen(scene.units.matrix(m)));
+  for (const auto& m : pose.palette) result.palette.push_back(to_eigen(scene.units.matrix(m)));
   result.morph_weights = pose.morph_weights;
   return result;
 }
@@ -216,7 +206,7 @@ std::vector<reference::Triangle> reference_triangles(const ReferenceScene& scene
       triangle.colours.col(c) =
           Eigen::Vector4f(vertex.colour.r, vertex.colour.g, vertex.colour.b, vertex.colour.a).cast<double>();
       // The rest normal's components ride in the posed frame.
-      const Eigen::Vector3d m = eigen(glm::dvec3(vertex.normal));
+      const Eigen::Vector3d m = to_eigen(glm::dvec3(vertex.normal));
       triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +
                                 snapshot.frames.normal.col(v) * scene.rest_frames.normal.col(v).dot(m);
     }
@@ -241,7 +231,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& part = parts[p];
     reference::Material material;
-    material.base_colour = eigen(glm::dvec3(part.base_colour));
+    material.base_colour = to_eigen(glm::dvec3(part.base_colour));
     material.base_alpha = static_cast<double>(part.base_colour.a);
     material.texture = part.texture;
     material.normal_texture = part.normal_texture;
@@ -254,13 +244,13 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
       result.triangles[t].material = static_cast<int>(p);
   }
   result.textures = textures;
-  result.camera.view_projection = eigen(view.view_projection);
-  result.camera.eye = eigen(view.eye);
+  result.camera.view_projection = to_eigen(view.view_projection);
+  result.camera.eye = to_eigen(view.eye);
   for (std::size_t i = 0; i < 3; ++i) {
-    result.lighting.lights[i] = {eigen(view.lights[i].direction), eigen(view.lights[i].colour)};
+    result.lighting.lights[i] = {to_eigen(view.lights[i].direction), to_eigen(view.lights[i].colour)};
   }
-  result.lighting.ambient = eigen(view.ambient);
-  result.lighting.up = eigen(view.up);
+  result.lighting.ambient = to_eigen(view.ambient);
+  result.lighting.up = to_eigen(view.up);
   const auto& shading = scene.scene.settings.shading;
   result.shading.blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
   result.shading.gradient =

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <future>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -31,11 +31,6 @@
 
 namespace plisse {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 // What draws: driver and shaders.
 Hash driver_hash(const GlInfo& gl, const std::string& shader_folder) {
@@ -190,7 +185,7 @@ void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
 }  // namespace
 
 RenderReport render(const RenderRequest& request, const FrameCallback& on_frame) {
-  const double started = now_ms();
+  const double started = wall_seconds();
   // A process of its own reads the model while the driver starts.
   auto loading =
       std::async(std::launch::async, [&] { return std::make_unique<pipeline::LoadedScene>(request.scene); });
@@ -282,7 +277,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         if (!request.state_file.empty())
           drawer->stepper().read_state(request.state_file, driver, scene.step_of_frame(frame));
       }
-      const double began = now_ms();
+      const double began = wall_seconds();
       const auto skipped_before = drawer->skipped();
       entry.effort = governor.effort();
       if (entry.effort) drawer->set_effort(*entry.effort);
@@ -298,18 +293,18 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
         const auto before = skipped_before.find(what);
         if (before == skipped_before.end() || before->second != count) entry.left_out.push_back(what);
       }
-      governor.drew(drawer->stepper(), now_ms() - began);
+      governor.drew(drawer->stepper(), 1e3 * (wall_seconds() - began));
 
       writer.submit([&, i, hash, picture] {
         FrameReport& mine = report.frames[i];
         if (mine.error.empty()) {
           guarded(mine, [&] {
-            const double encode = now_ms();
+            const double encode = wall_seconds();
             const auto [bytes, compressed] = picture->png(hash);
-            const double write = now_ms();
+            const double write = wall_seconds();
             write_whole_file(mine.path, bytes);
-            if (compressed) mine.ms["encode"] = write - encode;
-            mine.ms["write"] = now_ms() - write;
+            if (compressed) mine.ms["encode"] = 1e3 * (write - encode);
+            mine.ms["write"] = 1e3 * (wall_seconds() - write);
           });
         }
         if (mine.code == ExitCode::no_output) {
@@ -339,7 +334,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       }
     }
   }
-  report.wall_s = (now_ms() - started) * 1e-3;
+  report.wall_s = wall_seconds() - started;
   report.fps = report.wall_s > 0 ? drawn / report.wall_s : 0;
   return report;
 }

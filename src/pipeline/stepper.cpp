@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -97,11 +97,10 @@ void Stepper::observe(Stage stage) const {
 }
 
 bool Stepper::advance_to(int step) {
-  using namespace std::chrono_literals;
-  auto told = std::chrono::steady_clock::now();
+  double told = wall_seconds();
   while (step_ < step) {
     if (interrupted()) return false;
-    if (const auto now = std::chrono::steady_clock::now(); now - told > 2s) {
+    if (const double now = wall_seconds(); now - told > 2) {
       log::notice(fmt::format("stepping through the frames before: {} of {}", step_, step));
       told = now;
     }

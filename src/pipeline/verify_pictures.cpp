@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/eigen_glm.h"
 #include "io/flip.h"
 #include "reference/backdrop.h"
 #include "reference/depth.h"
@@ -28,10 +29,6 @@ constexpr double depth_fraction = 0.999;
 // but for rounding may go either way, of which softening leaves little.
 constexpr double ground_tolerance = 2e-3;  // of the light
 constexpr double ground_fraction = 0.9975;
-
-Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 io::Image composed(const reference::Picture& picture, const std::vector<Vector3d>& behind) {
   io::Image image{picture.width, picture.height, {}};
@@ -85,7 +82,8 @@ reference::ShadowMap PictureComparison::compare_shadow_map(const passes::View& v
                                                            const reference::Scene& scene) {
   const double radius = 1.02 * view.bounds_radius;
   reference::ShadowMap map;
-  map.matrix = reference::parallel_view(eigen(view.bounds_centre), radius, -eigen(view.lights[0].direction));
+  map.matrix =
+      reference::parallel_view(to_eigen(view.bounds_centre), radius, -to_eigen(view.lights[0].direction));
   map.size = RenderPass::shadow_size;
   map.texel_size = 2 * radius / map.size;
   map.depth = render_.shadow_map();
@@ -98,7 +96,7 @@ reference::GroundMap PictureComparison::compare_ground_map(const passes::View& v
                                                            const reference::Ground& ground,
                                                            const reference::ShadowMap& key) {
   reference::ShadowMap below;
-  below.matrix = reference::view_from_below(ground, eigen(view.bounds_centre));
+  below.matrix = reference::view_from_below(ground, to_eigen(view.bounds_centre));
   below.size = RenderPass::below_size;
   below.depth = render_.map_from_below();
   compare_depths(below.depth, reference::depth_map(scene.triangles, below.matrix, below.size), ground_below_);
@@ -118,12 +116,12 @@ void PictureComparison::compare(int frame, const passes::SurfaceBuffers& surface
   const io::Image coverage = drawn(surface, view, true), picture = drawn(surface, view, false);
 
   reference::Scene scene = picture_scene(reference_, gpu, view, textures_);
-  std::vector<Vector3d> behind(coverage.rgba.size() / 4, eigen(look().background));
+  std::vector<Vector3d> behind(coverage.rgba.size() / 4, to_eigen(look().background));
   std::optional<reference::ShadowMap> key;
   if (look().shadows || look().ground) key = compare_shadow_map(view, scene);
   if (look().ground) {
-    const reference::Ground ground =
-        reference::ground_under(eigen(view.bounds_centre), view.bounds_radius, eigen(view.up), view.floor);
+    const reference::Ground ground = reference::ground_under(to_eigen(view.bounds_centre), view.bounds_radius,
+                                                             to_eigen(view.up), view.floor);
     behind =
         reference::backdrop(behind[0], scene.camera.view_projection, ground,
                             compare_ground_map(view, scene, ground, *key), picture.width, picture.height);

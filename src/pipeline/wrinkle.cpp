@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -21,11 +21,6 @@ namespace plisse {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 Error bad(const fs::path& file, const std::string& what) {
   return {ExitCode::bad_input, fmt::format("{}: {}", file.string(), what)};
@@ -129,7 +124,7 @@ WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
 }
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request) {
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   check_outputs(request);
   const wrinkle::BaseSurface& surface = request.scene.surface;
   const auto forms = wrinkle::face_forms(surface, request.curvature);
@@ -159,14 +154,14 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request) {
     report.outputs.push_back({request.output, "field"});
   }
   if (!request.mesh.empty()) {
-    const auto upsampling = Clock::now();
+    const double upsampling = wall_seconds();
     const WrinkleMesh mesh = mesh_of(request, forms, {amplitude, report.field.phase});
     report.levels = mesh.levels;
-    report.upsample_s = since(upsampling);
+    report.upsample_s = wall_seconds() - upsampling;
     io::write_mesh(request.mesh, mesh.file);
     report.outputs.push_back({request.mesh, "mesh"});
   }
-  report.wall_s = since(began);
+  report.wall_s = wall_seconds() - began;
   return report;
 }
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "base/atomic_file.h"
-#include "base/cpu_time.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "io/wrinkle_field.h"
@@ -24,8 +25,7 @@ std::vector<double> values(const Eigen::VectorXd& vector) {
 
 io::WrinkleField as_file(const wrinkle::BaseSurface& surface, const wrinkle::CoarseField& field) {
   io::WrinkleField result;
-  for (Eigen::Index v = 0; v < surface.positions.cols(); ++v)
-    result.positions.emplace_back(surface.positions(0, v), surface.positions(1, v), surface.positions(2, v));
+  result.positions = points_to_glm(surface.positions);
   result.amplitude = values(field.amplitude);
   result.triangles = surface.topology.faces;
   result.phase = field.phase;

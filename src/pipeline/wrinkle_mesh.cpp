@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "pipeline/displace.h"
 #include "shell/unroll.h"
@@ -25,13 +26,6 @@ int checked_levels(std::size_t triangles, int levels) {
   return levels;
 }
 
-std::vector<glm::dvec3> to_glm(const Eigen::Matrix3Xd& columns) {
-  std::vector<glm::dvec3> result;
-  for (Eigen::Index v = 0; v < columns.cols(); ++v)
-    result.emplace_back(columns(0, v), columns(1, v), columns(2, v));
-  return result;
-}
-
 }  // namespace
 
 WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& surface,
@@ -46,8 +40,8 @@ WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& su
       surface, field, result.levels, {std::move(lean), shell::unrolled(surface.topology, surface.rest)});
   const shell::Positions moved = wrinkle::displaced(fine, with_v2);
   io::MeshFile& file = result.file;
-  file.positions = to_glm(moved);
-  file.normals = to_glm(wrinkle::vertex_normals(fine.faces, moved));
+  file.positions = points_to_glm(moved);
+  file.normals = points_to_glm(wrinkle::vertex_normals(fine.faces, moved));
   // A vertex has as many copies as it has texture coordinates; the first keeps its number.
   constexpr std::uint32_t none = ~std::uint32_t{0};
   const auto count = static_cast<std::uint32_t>(file.positions.size());

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -18,14 +19,9 @@ namespace plisse {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 // Not by the waves of each frame: all frames have one mesh.
 constexpr int sequence_levels = 3;
-
-double since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 // Base surfaces one after the other.
 class Bases {
@@ -62,10 +58,7 @@ class Bases {
       return scene;
     }
     WrinkleScene scene = first_;
-    const auto points = cache_.frame(index);
-    for (std::size_t v = 0; v < points->size(); ++v)
-      scene.surface.positions.col(static_cast<Eigen::Index>(v)) << (*points)[v].x, (*points)[v].y,
-          (*points)[v].z;
+    scene.surface.positions = points_to_eigen(*cache_.frame(index));
     return scene;
   }
 
@@ -89,7 +82,7 @@ fs::path numbered(const fs::path& pattern, int frame) {
 }  // namespace
 
 WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   const Bases bases(request);
   const std::vector<int> picked = select_frames(request.frames, bases.count());
   WrinkleRequest each = request.each;
@@ -132,10 +125,10 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
         report.outputs.push_back({{path, "field"}, n});
       }
       if (!request.each.mesh.empty()) {
-        const auto upsampling = Clock::now();
+        const double upsampling = wall_seconds();
         const WrinkleMesh mesh = mesh_of(each, forms, field);
         report.levels = mesh.levels;
-        frame.upsample_s = since(upsampling);
+        frame.upsample_s = wall_seconds() - upsampling;
         const fs::path path = numbered(request.each.mesh, n);
         io::write_mesh(path, mesh.file);
         report.outputs.push_back({{path, "mesh"}, n});
@@ -145,7 +138,7 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
     if (request.progress) request.progress(n, picked.back());
     report.interrupted = interrupted();
   }
-  report.wall_s = since(began);
+  report.wall_s = wall_seconds() - began;
   return report;
 }
 

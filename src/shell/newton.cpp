@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "shell/cholesky.h"
 
@@ -14,11 +14,6 @@ namespace plisse::shell {
 namespace {
 
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class Search {
  public:
@@ -73,11 +68,11 @@ class Search {
         result_.reason = "the Hessian could not be factorised";
         break;
       }
-      const auto began = Clock::now();
+      const double began = wall_seconds();
       const double energy = value.energy, largest = gradient.cwiseAbs().maxCoeff();
       const VectorXd before = gradient;
       const double step = line_search(value, gradient, direction);
-      result_.line_search_s += since(began);
+      result_.line_search_s += wall_seconds() - began;
       if (step == 0) {
         if (frictional_ && steps_gripped > 0) {
           grip(value, gradient, false);
@@ -183,7 +178,8 @@ class Search {
   void note(int iteration, const Potential::Value& value, const VectorXd& gradient, double step,
             double shift) {
     tell(value, gradient);
-    result_.trace.push_back({iteration, since(began_), result_.energy, result_.gradient_inf, step, shift});
+    result_.trace.push_back(
+        {iteration, wall_seconds() - began_, result_.energy, result_.gradient_inf, step, shift});
   }
 
   bool finished(const Potential::Value& value, const VectorXd& gradient) {
@@ -198,7 +194,7 @@ class Search {
       result_.reason = fmt::format("the limit of {} iterations was reached", settings_.max_iterations);
       return true;
     }
-    if (settings_.max_seconds > 0 && since(began_) > settings_.max_seconds) {
+    if (settings_.max_seconds > 0 && wall_seconds() - began_ > settings_.max_seconds) {
       result_.reason = fmt::format("the limit of {} seconds was reached", settings_.max_seconds);
       return true;
     }
@@ -206,23 +202,23 @@ class Search {
   }
 
   void assemble(Curvature curvature) {
-    const auto began = Clock::now();
+    const double began = wall_seconds();
     hessian_ = potential_.hessian(result_.positions, curvature);
     size_ = (hessian_.diagonal().array() / potential_.areas().array().max(1e-300)).maxCoeff();
     least_shift_ = 1e-12 * size_;
-    result_.assembly_s += since(began);
+    result_.assembly_s += wall_seconds() - began;
   }
 
   // −(H + shift)⁻¹ g where that is downhill, else nothing.
   VectorXd solved(const VectorXd& gradient, double shift) {
-    auto began = Clock::now();
+    double began = wall_seconds();
     system_ = hessian_;
     if (shift > 0) system_.diagonal() += shift * potential_.areas();
     if (!analysed_) {
       factor_.analyse(system_);
       analysed_ = true;
-      result_.analysis_s = since(began);
-      began = Clock::now();
+      result_.analysis_s = wall_seconds() - began;
+      began = wall_seconds();
     }
     VectorXd direction;
     if (factor_.factorise(system_)) {
@@ -230,7 +226,7 @@ class Search {
       direction = -factor_.solve(gradient);
       if (!direction.allFinite() || gradient.dot(direction) >= 0) direction.resize(0);
     }
-    result_.factor_s += since(began);
+    result_.factor_s += wall_seconds() - began;
     return direction;
   }
 
@@ -336,7 +332,7 @@ class Search {
   Equilibrium result_;
   Cholesky factor_;
   Eigen::SparseMatrix<double> hessian_, system_;
-  Clock::time_point began_ = Clock::now();
+  double began_ = wall_seconds();
   double rounding_force_ = 0, rest_extent_ = 0;
   double size_ = 0;  // N/m³: the largest of the Hessian's diagonal a rest area
   // N/m³ a rest area: what is added to it without its concave parts, or as it is; the last that was.

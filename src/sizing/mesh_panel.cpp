@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "sizing/delaunay.h"
 #include "sizing/sample.h"
@@ -21,14 +21,9 @@ namespace plisse::sizing {
 namespace {
 
 using glm::dvec2;
-using Clock = std::chrono::steady_clock;
 
 constexpr double wanted_angle = 27 * std::numbers::pi / 180;  // two degrees above what is promised
 constexpr double sharp_meeting = std::numbers::pi / 3;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Place along a curve that visits every cell of a 2^16 grid next to the one before (D. Hilbert 1891), so that
 // each insertion starts beside the last.
@@ -326,20 +321,20 @@ double edge_length_ratio(const PanelMesh& mesh) {
 std::unique_ptr<SizedPanel> size_panel(const Panel& panel, const SizingOptions& options,
                                        const std::map<std::size_t, double>& seam_sizes) {
   auto result = std::make_unique<SizedPanel>();
-  const auto start = Clock::now();
+  const double start = wall_seconds();
   result->domain = prepare(panel, options);
   for (const auto& [line, size] : seam_sizes) result->domain.lines[line].seam_size = size;
   result->sources = sources_of(panel, options);
   result->map = std::make_unique<SizeMap>(panel, result->domain, result->sources, options);
-  result->seconds.map = seconds_since(start);
+  result->seconds.map = wall_seconds() - start;
   return result;
 }
 
 void mesh_sized(SizedPanel& sized, const SizingOptions& options, const Divisions& divisions) {
-  auto start = Clock::now();
+  double start = wall_seconds();
   const auto lap = [&] {
-    const double seconds = seconds_since(start);
-    start = Clock::now();
+    const double seconds = wall_seconds() - start;
+    start = wall_seconds();
     return seconds;
   };
   Samples samples = sample_lines(sized.domain, *sized.map, divisions);

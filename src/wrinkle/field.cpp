@@ -1,11 +1,11 @@
 #include "wrinkle/field.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "base/clock.h"
 #include "wrinkle/local_law.h"
 #include "wrinkle/local_waves.h"
 #include "wrinkle/patches.h"
@@ -15,13 +15,8 @@
 namespace plisse::wrinkle {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Eigen::Index;
 using Eigen::VectorXd;
-
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 bool flat(const Waves& waves) {
   return waves.amplitude.size() == 0 || !(waves.amplitude.maxCoeff() > 0);
@@ -118,7 +113,7 @@ class Search {
   }
 
   Solution run(const Problem& problem, const Waves& start, const SolveOptions& options) {
-    const double began = since(begin_);
+    const double began = wall_seconds() - begin_;
     Solution solution = solve(problem, start, options);
     for (const SolveStep& step : solution.trace) {
       if (trace_.empty() || step.energy < trace_.back().energy)
@@ -249,7 +244,7 @@ class Search {
   Solution best_;
   std::vector<SolveStep> trace_;
   int iterations_ = 0;
-  Clock::time_point begin_ = Clock::now();
+  double begin_ = wall_seconds();
 };
 
 // A state that nothing minimised.
@@ -278,16 +273,16 @@ void read_off(const Problem& problem, Field& field) {
 }
 
 Field by_local_law(const Problem& problem, const std::vector<bool>& clamped) {
-  const auto begin = Clock::now();
+  const double begin = wall_seconds();
   Field field;
   field.real = unsolved(problem, vandeparre_waves(problem, clamped));
   field.trace = field.real.trace;
   field.released.assign(problem.forms().size(), false);
-  field.solve_s = since(begin);
-  const auto phase_begin = Clock::now();
+  field.solve_s = wall_seconds() - begin;
+  const double phase_begin = wall_seconds();
   field.whole = unsolved(problem, with_whole_periods(problem, field.real.waves));
   read_off(problem, field);
-  field.phase_s = since(phase_begin);
+  field.phase_s = wall_seconds() - phase_begin;
   return field;
 }
 
@@ -297,14 +292,14 @@ Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>&
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped,
                   const FieldOptions& options) {
   if (options.local_law) return by_local_law(Problem(topology, forms, model, wrinkle_free, clamped), clamped);
-  const auto begin = Clock::now();
+  const double begin = wall_seconds();
   Field field;
   Search search(topology, forms, model, wrinkle_free, clamped, options);
   search.start(field);
   search.release();
   search.finish(field);
-  field.solve_s = since(begin);
-  const auto phase_begin = Clock::now();
+  field.solve_s = wall_seconds() - begin;
+  const double phase_begin = wall_seconds();
   const Problem& problem = search.problem();
   SolveOptions fixed = options.solve;
   fixed.fixed_periods = true;
@@ -312,7 +307,7 @@ Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>&
                     ? field.real
                     : solve(problem, with_whole_periods(problem, field.real.waves), fixed);
   read_off(problem, field);
-  field.phase_s = since(phase_begin);
+  field.phase_s = wall_seconds() - phase_begin;
   return field;
 }
 

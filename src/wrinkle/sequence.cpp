@@ -1,11 +1,11 @@
 #include "wrinkle/sequence.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "base/clock.h"
 #include "wrinkle/closed_form.h"
 #include "wrinkle/patches.h"
 #include "wrinkle/start.h"
@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
-using Clock = std::chrono::steady_clock;
 constexpr double turn = 2 * std::numbers::pi;
 
 // Amplitudes that are 0 stay so by symmetry, the energy being even in them; where waves may have become due
@@ -225,7 +224,7 @@ std::optional<FieldSequence::State> FieldSequence::begun(const Problem& problem,
 
 SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
                                   const std::vector<bool>& wrinkle_free) {
-  const auto began = Clock::now();
+  const double began = wall_seconds();
   SequenceFrame frame;
   const Problem problem(topology_, forms, model_, wrinkle_free, clamped_);
   const auto go_on = [&](State& state) {
@@ -286,7 +285,7 @@ SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
   }
   frame.one_form = one_form(topology_, frame.field);
   shown_ = frame.field;
-  frame.solve_s = std::chrono::duration<double>(Clock::now() - began).count();
+  frame.solve_s = wall_seconds() - began;
   return frame;
 }
 

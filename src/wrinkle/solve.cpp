@@ -8,10 +8,10 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "shell/cholesky.h"
 
@@ -21,7 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::SparseMatrix;
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
 
 // Factors the lower half of a symmetric matrix of a fixed pattern, in an order of elimination of its own
 // (minimum degree).
@@ -148,8 +147,8 @@ double kkt_residual(const Problem& problem, const VectorXd& x, double energy, co
 }
 
 Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options) {
-  const auto begin = Clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const double begin = wall_seconds();
+  const auto seconds = [&] { return wall_seconds() - begin; };
   const Index amplitudes = problem.amplitude_count();
   const auto bounded = [&](VectorXd x) {
     x.head(amplitudes) = x.head(amplitudes).cwiseMax(0).cwiseMin(problem.upper());

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "mesh/corner_field.h"
 #include "mesh/loop.h"
@@ -64,19 +65,6 @@ std::vector<Value> applied(const Rows<LoopWeight>& masks, const std::vector<Valu
   return result;
 }
 
-std::vector<glm::dvec3> to_glm(const Eigen::Matrix3Xd& columns) {
-  std::vector<glm::dvec3> result;
-  for (Index v = 0; v < columns.cols(); ++v) result.emplace_back(columns(0, v), columns(1, v), columns(2, v));
-  return result;
-}
-
-Eigen::Matrix3Xd to_eigen(const std::vector<glm::dvec3>& points) {
-  Eigen::Matrix3Xd result(3, static_cast<Index>(points.size()));
-  for (std::size_t v = 0; v < points.size(); ++v)
-    result.col(static_cast<Index>(v)) << points[v].x, points[v].y, points[v].z;
-  return result;
-}
-
 // No amplitude on faces without waves, nor on their edges.
 void shut(std::vector<double>& amplitude, const LoopLevel& level, const CornerField& phase) {
   for (std::size_t f = 0; f < level.faces.size(); ++f) {
@@ -105,7 +93,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
   for (const shell::Face& t : surface.topology.faces)
     waves.push_back(field.amplitude[t[0]] > 0 || field.amplitude[t[1]] > 0 || field.amplitude[t[2]] > 0);
   std::vector<double> amplitude(field.amplitude.begin(), field.amplitude.end());
-  std::vector<glm::dvec3> positions = to_glm(surface.positions), lean = to_glm(extras.lean);
+  std::vector<glm::dvec3> positions = points_to_glm(surface.positions), lean = points_to_glm(extras.lean);
   CornerField phase(loop.levels.front(), field.phase, waves, 2 * pi, amplitude);
   std::vector<CornerField> uv;
   if (!extras.uv.empty()) {
@@ -132,8 +120,8 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
   }
   const std::array<std::vector<glm::dvec3>, 2> tangents{applied(loop.tangents[0], positions, glm::dvec3(0)),
                                                         applied(loop.tangents[1], positions, glm::dvec3(0))};
-  result.positions = to_eigen(applied(loop.limit, positions, glm::dvec3(0)));
-  if (!lean.empty()) result.lean = to_eigen(applied(loop.limit, lean, glm::dvec3(0)));
+  result.positions = points_to_eigen(applied(loop.limit, positions, glm::dvec3(0)));
+  if (!lean.empty()) result.lean = points_to_eigen(applied(loop.limit, lean, glm::dvec3(0)));
   amplitude = applied(loop.limit, amplitude, 0.0);
   shut(amplitude, last, phase);
   result.amplitude =
