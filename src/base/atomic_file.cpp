@@ -97,6 +97,30 @@ std::filesystem::path new_temporary(const std::filesystem::path& path, const std
   fail_write(path, EEXIST);
 }
 
+template <typename Bytes>
+Bytes read_whole(const std::filesystem::path& path) {
+  const auto fail = [&](int error) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read: {}", path.string(), reason(error)));
+  };
+  Descriptor file(path, O_RDONLY);
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail(errno);
+  Bytes bytes;
+  // The size is only a first guess: pipes and files under /proc have none.
+  std::size_t used = 0;
+  bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  for (;;) {
+    const ssize_t count = ::read(file.number(), bytes.data() + used, bytes.size() - used);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(errno);
+    if (count == 0) break;
+    used += static_cast<std::size_t>(count);
+    if (used == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
@@ -154,26 +178,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 }
 
 std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& path) {
-  const auto fail = [&](int error) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read: {}", path.string(), reason(error)));
-  };
-  Descriptor file(path, O_RDONLY);
-  struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail(errno);
-  std::vector<std::uint8_t> bytes;
-  // The size is only a first guess: pipes and files under /proc have none.
-  std::size_t used = 0;
-  bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
-  for (;;) {
-    const ssize_t count = ::read(file.number(), bytes.data() + used, bytes.size() - used);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(errno);
-    if (count == 0) break;
-    used += static_cast<std::size_t>(count);
-    if (used == bytes.size()) bytes.resize(2 * bytes.size());
-  }
-  bytes.resize(used);
-  return bytes;
+  return read_whole<std::vector<std::uint8_t>>(path);
+}
+
+std::string read_whole_text(const std::filesystem::path& path) {
+  return read_whole<std::string>(path);
 }
 
 }  // namespace plisse

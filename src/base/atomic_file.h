@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,5 +40,6 @@ void check_writable(const std::filesystem::path& path);
 
 // Throws Error(bad_input) with path and reason (missing, a folder, not readable).
 std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& path);
+std::string read_whole_text(const std::filesystem::path& path);
 
 }  // namespace plisse

@@ -411,8 +411,7 @@ DrapeSettings parse_drape(std::string_view text, const fs::path& file) {
 }
 
 DrapeSettings load_drape_settings(const fs::path& file) {
-  const auto bytes = read_whole_file(file);
-  return parse_drape({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  return parse_drape(read_whole_text(file), file);
 }
 
 std::string drape_reference_markdown() {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "config/fabric.h"
 #include "config/frames.h"
@@ -464,9 +464,7 @@ Kind file_path(Member<fs::path> value, std::vector<std::string> endings) {
           [=](SceneSettings& settings, const toml::node& node, const fs::path& folder) {
             const std::string given = text_of(node);
             const fs::path path = given.empty() ? fs::path() : resolved(folder, given);
-            std::string ending = path.extension().string();
-            std::transform(ending.begin(), ending.end(), ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            const std::string ending = lower_case(path.extension().string());
             if (!given.empty() && !is_there(path))
               throw Problem{fmt::format("there is no '{}'", path.string()), ""};
             if (!given.empty() && std::find(endings.begin(), endings.end(), ending) == endings.end())

@@ -424,8 +424,7 @@ PaintSettings parse_paint(std::string_view text, const fs::path& file) {
 }
 
 PaintSettings load_paint(const fs::path& file) {
-  const auto bytes = read_whole_file(file);
-  return parse_paint({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  return parse_paint(read_whole_text(file), file);
 }
 
 std::vector<PaintKey> paint_keys() {

@@ -179,8 +179,7 @@ SceneSettings bare_scene(const fs::path& model) {
 }
 
 SceneSettings load_scene(const fs::path& file) {
-  const auto bytes = read_whole_file(file);
-  return parse_scene({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  return parse_scene(read_whole_text(file), file);
 }
 
 SceneSettings parse_scene(std::string_view text, const fs::path& file) {

@@ -54,8 +54,8 @@ void for_each_tag(std::string_view text, std::string_view name, const Visit& vis
 }  // namespace
 
 void check_collada_arrays(const std::filesystem::path& path) {
-  const auto bytes = read_whole_file(path);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string file = read_whole_text(path);
+  const std::string_view text = file;
   std::map<std::string_view, std::uint64_t> sizes;
   for (const std::string_view kind : {"float_array", "Name_array", "IDREF_array"})
     for_each_tag(text, kind, [&](std::string_view tag) {

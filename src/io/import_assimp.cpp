@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include <assimp/DefaultIOSystem.h>
-#include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -17,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "io/collada_arrays.h"
 #include "io/import_assimp_parts.h"
 #include "io/import_place.h"
@@ -28,9 +27,7 @@ namespace plisse::io {
 namespace {
 
 FileKind kind_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".fbx") return FileKind::fbx;
   if (extension == ".dae") return FileKind::collada;
   if (extension == ".x") return FileKind::x;

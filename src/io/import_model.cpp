@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/import.h"
 #include "io/import_assimp.h"
 #include "io/import_gltf.h"
@@ -25,9 +25,7 @@ using Reader = Model (*)(const std::filesystem::path&, const ImportOptions&);
 // nullptr where there is none.
 Reader reader_for(const std::filesystem::path& path) {
   static constexpr std::array<std::string_view, 6> with_assimp{".fbx", ".dae", ".x", ".bvh", ".stl", ".3ds"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".glb" || extension == ".gltf") return import_gltf;
   if (extension == ".obj") return import_obj;
   if (extension == ".ply") return import_ply;

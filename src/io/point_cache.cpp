@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +15,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/import_place.h"
 
 namespace plisse::io {
@@ -40,13 +39,6 @@ std::uint32_t word_of(const char* bytes, bool big_endian) {
 
 float float_of(const char* bytes, bool big_endian) {
   return std::bit_cast<float>(word_of(bytes, big_endian));
-}
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
 }
 
 class File {
@@ -118,7 +110,7 @@ Layout mdd_layout(File& file) {
 class PointFrames : public FrameSource {
  public:
   PointFrames(const std::filesystem::path& path, const Model& model) : file_(path) {
-    const std::string ending = lower_ending(path);
+    const std::string ending = lower_case(path.extension().string());
     if (ending != ".mdd" && ending != ".pc2") file_.fail("not a point cache this program reads: MDD or PC2");
     layout_ = ending == ".pc2" ? pc2_layout(file_) : mdd_layout(file_);
     if (layout_.frames == 0) file_.fail("a point cache without frames");
@@ -173,7 +165,7 @@ class PointFrames : public FrameSource {
     }
     // Whoever numbers vertices has also put them into the world (model.h).
     const bool numbered = model.file_vertex_count > 0;
-    const std::string ending = lower_ending(model.path);
+    const std::string ending = lower_case(model.path.extension().string());
     if (!numbered && ending != ".glb" && ending != ".gltf")
       file_.fail(fmt::format(
           "{} does not keep the numbers that vertices had where it was exported; export the mesh as "
@@ -203,7 +195,7 @@ void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t word, bool big_
 
 // Or a PC2, which holds one step for all. Throws Error(bad_input).
 bool is_mdd(const std::filesystem::path& path, const std::vector<double>& times) {
-  const std::string ending = lower_ending(path);
+  const std::string ending = lower_case(path.extension().string());
   if (ending == ".mdd") return true;
   if (ending != ".pc2")
     throw Error(ExitCode::bad_input,

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "config/suggest.h"
 #include "io/import.h"
 #include "mesh/frames.h"
@@ -297,9 +298,7 @@ std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::fil
   // OBJ and PLY state neither unit nor up axis: they are taken to be in the model's own.
   io::ImportOptions options;
   options.limits = limits;
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".obj" || extension == ".ply") {
     options.metres_per_unit = model.metres_per_unit;
     options.up = model.up;
