@@ -31,8 +31,9 @@ std::vector<Suite> wanted_suites(const std::vector<std::string>& names) {
   const auto known = suite_names();
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error(ExitCode::bad_input, fmt::format("there is no suite '{}'{}; there are {}", name,
-                                                   did_you_mean(name, known), fmt::join(known, ", ")));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("there is no suite '{}'{}; there are {}", name,
+                              config::did_you_mean(name, known), fmt::join(known, ", ")));
   }
   std::vector<Suite> wanted;
   for (const Suite& suite : suites) {

@@ -1,16 +1,18 @@
 #include "bench/film.h"
+#include "pipeline/look.h"
 
 namespace plisse::bench {
 
 using gpu::Target;
 
-Film::Film(const SceneSettings& settings, const std::string& name, bool software_renderer)
+Film::Film(const config::SceneSettings& settings, const std::string& name, bool software_renderer)
     : scene(settings),
       subject(subject_of(scene, name)),
       reference(scene),
       rig(subject, software_renderer),
       view(scene.view(1)),
-      pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), ""),
+      pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+           pipeline::texture_levels(scene), ""),
       target(settings.output.width, settings.output.height, settings.output.samples, Target::Format::srgb8),
       floats(settings.output.width, settings.output.height, 1, Target::Format::rgba32f),
       software(software_renderer) {}

@@ -16,7 +16,7 @@ namespace plisse::bench {
 
 class Film {
  public:
-  Film(const SceneSettings& settings, const std::string& name, bool software);
+  Film(const config::SceneSettings& settings, const std::string& name, bool software);
 
   // The surface alone or with all of the scene's light, from whatever holds its waves.
   io::Image picture(const passes::SurfaceBuffers& surface);

@@ -74,7 +74,7 @@ Verdict nan_in_a_key() {
   auto glb = read_whole_file(find_assets() / "sleeve.glb");
   const std::size_t key = spoil_a_key(glb);
   write_whole_file(folder / "spoiled.glb", glb);
-  SceneSettings settings = load_scene((find_assets() / "sleeve.toml").string());
+  config::SceneSettings settings = config::load_scene((find_assets() / "sleeve.toml").string());
   settings.model.path = (folder / "spoiled.glb").string();
   settings.model.loop = false;
   const gpu::Context context;

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "bench/hard.h"
-#include "pipeline/drape.h"
-#include "pipeline/drape_examples.h"
-#include "pipeline/wrinkle.h"
+#include "cloth/drape.h"
+#include "cloth/drape_examples.h"
+#include "cloth/wrinkle.h"
 #include "shell/carry.h"
 
 namespace plisse::bench {
@@ -22,8 +22,8 @@ struct Solution {
   std::string problem;  // "": finite, and either converged or with a reason
 };
 
-Solution drape_of(const DrapeScene& scene, const shell::Positions& start) {
-  const shell::Shell shell = shell_of(scene);
+Solution drape_of(const cloth::DrapeScene& scene, const shell::Positions& start) {
+  const shell::Shell shell = cloth::shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
   shell::NewtonSettings settings = scene.newton;
   settings.max_iterations = 300;
@@ -35,7 +35,7 @@ Solution drape_of(const DrapeScene& scene, const shell::Positions& start) {
   return solution;
 }
 
-Verdict converges_or_says_why(const DrapeScene& scene, const shell::Positions& start) {
+Verdict converges_or_says_why(const cloth::DrapeScene& scene, const shell::Positions& start) {
   const Solution solution = drape_of(scene, start);
   if (!solution.problem.empty()) return {false, solution.problem};
   return {true, fmt::format("{:.6g} J after {} steps ({})", solution.equilibrium.energy,
@@ -43,7 +43,7 @@ Verdict converges_or_says_why(const DrapeScene& scene, const shell::Positions& s
 }
 
 Verdict material(double poisson, double thickness) {
-  DrapeScene scene = drape_example("strip", few);
+  cloth::DrapeScene scene = cloth::drape_example("strip", few);
   scene.material.poisson = poisson;
   scene.material.thickness = thickness;
   const Solution solution = drape_of(scene, scene.start);
@@ -57,14 +57,14 @@ Verdict material(double poisson, double thickness) {
 }
 
 Verdict collapsed_start() {
-  const DrapeScene scene = drape_example("strip", few);
+  const cloth::DrapeScene scene = cloth::drape_example("strip", few);
   shell::Positions start = scene.start;
   start.row(1).setZero();  // all triangles without area
   return converges_or_says_why(scene, start);
 }
 
 Verdict inverted_start() {
-  const DrapeScene scene = drape_example("strip", few);
+  const cloth::DrapeScene scene = cloth::drape_example("strip", few);
   shell::Positions start = scene.start;
   start.row(1) *= -1;
   return converges_or_says_why(scene, start);
@@ -72,7 +72,7 @@ Verdict inverted_start() {
 
 // Nothing pulls and nothing is longer than at rest: no energy, and it stops at once.
 Verdict all_slack() {
-  DrapeScene scene = drape_example("strip", few);
+  cloth::DrapeScene scene = cloth::drape_example("strip", few);
   const shell::Positions rest = scene.rest;
   const auto pulled = scene.conditions;
   scene.conditions = [pulled](double) { return pulled(0); };
@@ -85,7 +85,7 @@ Verdict all_slack() {
 
 // A strip that hangs on nothing while gravity pulls.
 Verdict unheld() {
-  DrapeScene scene = drape_example("strip", few);
+  cloth::DrapeScene scene = cloth::drape_example("strip", few);
   const auto vertices = static_cast<std::size_t>(scene.start.cols());
   scene.conditions = [vertices](double) { return shell::Conditions(vertices); };
   scene.material.density = 1000;
@@ -99,7 +99,7 @@ Verdict unheld() {
 }
 
 Verdict scaled(double scale) {
-  DrapeScene scene = drape_example("strip", few);
+  cloth::DrapeScene scene = cloth::drape_example("strip", few);
   scene.rest *= scale;
   const shell::Positions start = scale * scene.start;
   const auto held = scene.conditions;
@@ -120,8 +120,8 @@ Verdict scaled(double scale) {
 }
 
 // The text of the error that a scene ends in once something is spoiled.
-Verdict refused(const std::function<void(DrapeScene&)>& spoil, const std::string& word) {
-  DrapeScene scene = drape_example("strip", few);
+Verdict refused(const std::function<void(cloth::DrapeScene&)>& spoil, const std::string& word) {
+  cloth::DrapeScene scene = cloth::drape_example("strip", few);
   spoil(scene);
   try {
     drape_of(scene, scene.start);
@@ -152,11 +152,11 @@ Verdict onset_is_continuous() {
 
 // A point that is none, on a base surface that somebody else made.
 Verdict nan_in_the_base() {
-  WrinkleRequest request;
-  request.scene = base_of(drape_example("stretched-sheet", few));
+  cloth::WrinkleRequest request;
+  request.scene = cloth::base_of(cloth::drape_example("stretched-sheet", few));
   request.scene.surface.positions(1, 7) = std::nan("");
   try {
-    wrinkle_field(request);
+    cloth::wrinkle_field(request);
   } catch (const Error& error) {
     return {error.code == ExitCode::bad_input, error.what()};
   }
@@ -165,23 +165,23 @@ Verdict nan_in_the_base() {
 
 // Squeezed in both directions at once: what the model is not for, but nothing to fall over.
 Verdict squeezed_both_ways() {
-  DrapeScene scene = drape_example("stretched-sheet", 200);
+  cloth::DrapeScene scene = cloth::drape_example("stretched-sheet", 200);
   scene.solved = true;
   scene.start = 0.98 * scene.rest;
-  WrinkleRequest request;
-  request.scene = base_of(scene);
+  cloth::WrinkleRequest request;
+  request.scene = cloth::base_of(scene);
   request.options.solve.max_iterations = 300;
-  const WrinkleReport report = wrinkle_field(request);
+  const cloth::WrinkleReport report = cloth::wrinkle_field(request);
   return {
       std::isfinite(report.max_amplitude) && std::isfinite(report.field.whole.energy),
       fmt::format("amplitudes up to {:.3g} mm ({})", 1000 * report.max_amplitude, report.field.whole.reason)};
 }
 
-Verdict field_of(const DrapeScene& scene, bool waves_wanted) {
-  WrinkleRequest request;
-  request.scene = base_of(scene);
+Verdict field_of(const cloth::DrapeScene& scene, bool waves_wanted) {
+  cloth::WrinkleRequest request;
+  request.scene = cloth::base_of(scene);
   request.options.solve.max_iterations = 300;
-  const WrinkleReport report = wrinkle_field(request);  // throws where it is not finite
+  const cloth::WrinkleReport report = cloth::wrinkle_field(request);  // throws where it is not finite
   const auto& solution = report.field.whole;
   if (!solution.converged && solution.reason.empty()) return {false, "not converged, and no reason given"};
   const bool some = report.max_amplitude > 0;
@@ -192,21 +192,21 @@ Verdict field_of(const DrapeScene& scene, bool waves_wanted) {
 
 // A strip that is free to contract has no compression anywhere.
 Verdict nothing_to_wrinkle() {
-  return field_of(drape_example("strip", few), false);
+  return field_of(cloth::drape_example("strip", few), false);
 }
 
 Verdict thin_field() {
-  DrapeScene scene = drape_example("stretched-sheet", 200);
+  cloth::DrapeScene scene = cloth::drape_example("stretched-sheet", 200);
   scene.material.thickness = 1e-6;
   return field_of(scene, true);
 }
 
 Verdict closed_surface() {
-  return field_of(drape_example("disk-balloon", 200), true);
+  return field_of(cloth::drape_example("disk-balloon", 200), true);
 }
 
 Verdict flat_rest() {
-  DrapeScene scene = drape_example("stretched-sheet", 200);
+  cloth::DrapeScene scene = cloth::drape_example("stretched-sheet", 200);
   scene.solved = true;  // the flat sheet itself: I_b = I_u, II_b = 0
   const auto pulled = scene.conditions;
   scene.conditions = [pulled](double) { return pulled(0); };
@@ -229,18 +229,18 @@ std::vector<HardCase> hard_shells() {
       {"drape", "a rest triangle without area", "an error that names it", false,
        [] {
          return refused(
-             [](DrapeScene& scene) {
+             [](cloth::DrapeScene& scene) {
                const shell::Face& face = scene.rest_faces[3];
                scene.rest.col(face[1]) = scene.rest.col(face[0]);
              },
              "rest triangle 3");
        }},
       {"drape", "a start that is not a number", "an error", false,
-       [] { return refused([](DrapeScene& scene) { scene.start(2, 5) = std::nan(""); }, ""); }},
+       [] { return refused([](cloth::DrapeScene& scene) { scene.start(2, 5) = std::nan(""); }, ""); }},
       {"drape", "three faces on one edge", "an error that names it", false,
        [] {
          return refused(
-             [](DrapeScene& scene) {
+             [](cloth::DrapeScene& scene) {
                scene.faces.push_back(scene.faces.front());
                scene.rest_faces.push_back(scene.rest_faces.front());
              },

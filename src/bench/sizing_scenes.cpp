@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/drape_mesh.h"
+#include "cloth/drape_mesh.h"
 #include "sizing/mesh_panel.h"
 
 namespace plisse::bench {
@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 constexpr double gravity = 9.81;  // m/s²
 
-DrapeScene scene_on(const EvenMesh& mesh) {
-  DrapeScene scene;
+cloth::DrapeScene scene_on(const EvenMesh& mesh) {
+  cloth::DrapeScene scene;
   scene.rest = scene.start = mesh.points;
   scene.rest_faces = scene.faces = mesh.faces;
   scene.stretching = shell::Stretching::stvk;
@@ -32,7 +32,8 @@ struct OnLine {
 };
 
 // The surface over the line where a rest coordinate (0: x, 1: y) has a value, in order.
-std::vector<OnLine> section(const DrapeScene& scene, const Positions& positions, int axis, double value) {
+std::vector<OnLine> section(const cloth::DrapeScene& scene, const Positions& positions, int axis,
+                            double value) {
   std::vector<OnLine> points;
   for (const shell::Face& face : scene.rest_faces) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +56,7 @@ EvenMesh even_mesh(double width, double height, double edge, const std::vector<d
   panel.fabric = *sizing::find_fabric("cantilever");
   const sizing::SizingOptions options;
   const double scale = sizing::fabric_resolution(options.law, panel.fabric.weft) / edge;
-  panel.outline = rectangle_outline(width * scale, height * scale);
+  panel.outline = cloth::rectangle_outline(width * scale, height * scale);
   for (const double x : lines) {
     sizing::Feature line;  // a contraction of 1 asks for nothing finer, but the line stays
     line.name = "line";
@@ -77,11 +78,12 @@ EvenMesh square_mesh(double width, double height, double edge) {
   const auto pieces = [&](double length) {
     return std::max(1, static_cast<int>(std::lround(length / edge)));
   };
-  const FlatMesh mesh = grid_mesh(width, height, pieces(width), pieces(height), Diagonals::alternating);
+  const cloth::FlatMesh mesh =
+      cloth::grid_mesh(width, height, pieces(width), pieces(height), cloth::Diagonals::alternating);
   return {mesh.points, mesh.faces};
 }
 
-DrapeScene strip_scene(const Strip& strip, double edge, StripMesh kind, shell::Bending bending) {
+cloth::DrapeScene strip_scene(const Strip& strip, double edge, StripMesh kind, shell::Bending bending) {
   const int columns = std::max(2, static_cast<int>(std::lround(strip.length / edge)));
   // Half an edge of the free length lies before the table's edge where the hinge there stands for both sides.
   const double step = kind == StripMesh::regular ? strip.length / (columns + 0.5) : edge;
@@ -90,13 +92,13 @@ DrapeScene strip_scene(const Strip& strip, double edge, StripMesh kind, shell::B
   const EvenMesh mesh =
       kind == StripMesh::regular
           ? [&] {
-              const FlatMesh grid = grid_mesh(
+              const cloth::FlatMesh grid = cloth::grid_mesh(
                   held + free, strip.width, columns + 1,
-                  std::max(1, static_cast<int>(std::lround(strip.width / step))), Diagonals::alternating);
+                  std::max(1, static_cast<int>(std::lround(strip.width / step))), cloth::Diagonals::alternating);
               return EvenMesh{grid.points, grid.faces};
             }()
           : even_mesh(held + free, strip.width, edge, {held});
-  DrapeScene scene = scene_on(mesh);
+  cloth::DrapeScene scene = scene_on(mesh);
   scene.bending = bending;
   const double thickness = std::cbrt(12 * strip.bending / strip.modulus);
   scene.material = {strip.modulus, 0, thickness, strip.weight / thickness};
@@ -152,9 +154,10 @@ double sag_of_beam(const Strip& strip) {
   return drop * strip.length;
 }
 
-DrapeScene sheet_scene(double edge, bool stvk) {
+cloth::DrapeScene sheet_scene(double edge, bool stvk) {
   const double width = 0.25, height = 0.1, stretch = 0.1278;
-  DrapeScene scene = scene_on(stvk ? square_mesh(width, height, edge) : even_mesh(width, height, edge));
+  cloth::DrapeScene scene =
+      scene_on(stvk ? square_mesh(width, height, edge) : even_mesh(width, height, edge));
   scene.material = {1e6, 0.5, 1e-4, 0};
   if (stvk) {
     // A tenth of the thickness: flat is an equilibrium too.
@@ -177,7 +180,7 @@ DrapeScene sheet_scene(double edge, bool stvk) {
   return scene;
 }
 
-Crossing waves_across(const DrapeScene& scene, const Positions& positions) {
+Crossing waves_across(const cloth::DrapeScene& scene, const Positions& positions) {
   const auto points = section(scene, positions, 0, 0.5 * scene.rest.row(0).maxCoeff() + 1e-9);
   Crossing crossing;
   double low = 0, high = 0;
@@ -199,10 +202,10 @@ Crossing waves_across(const DrapeScene& scene, const Positions& positions) {
   return crossing;
 }
 
-DrapeScene curtain_scene(const Curtain& curtain, double edge, double guess) {
+cloth::DrapeScene curtain_scene(const Curtain& curtain, double edge, double guess) {
   const double width = curtain.wavelength / (1 - curtain.compression);
   const double share = 1 - curtain.compression;
-  DrapeScene scene = scene_on(square_mesh(width, curtain.height, edge));
+  cloth::DrapeScene scene = scene_on(square_mesh(width, curtain.height, edge));
   const double thickness = std::cbrt(12 * (1 - 0.09) * curtain.bending / curtain.modulus);
   scene.material = {curtain.modulus, 0.3, thickness, curtain.weight / thickness};
   scene.loads.gravity << 0, -gravity, 0;
@@ -228,7 +231,7 @@ DrapeScene curtain_scene(const Curtain& curtain, double edge, double guess) {
   return scene;
 }
 
-Transition transition_of(const Curtain& curtain, const DrapeScene& scene, const Positions& positions) {
+Transition transition_of(const Curtain& curtain, const cloth::DrapeScene& scene, const Positions& positions) {
   Transition result;
   const double width = scene.rest.row(0).maxCoeff();
   constexpr int rows = 400;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "pipeline/drape_scene.h"
+#include "cloth/drape_scene.h"
 
 namespace plisse::bench {
 
@@ -29,7 +29,7 @@ enum class StripMesh {
   irregular,  // clamped up to the table's edge, as one would
   regular,    // rows of squares, clamped up to half an edge before it, where a hinge stands for both sides
 };
-DrapeScene strip_scene(const Strip& strip, double edge, StripMesh mesh, shell::Bending bending);
+cloth::DrapeScene strip_scene(const Strip& strip, double edge, StripMesh mesh, shell::Bending bending);
 // Of the strip's end below the table, m.
 double sag_of(const shell::Positions& positions);
 // The same of an inextensible beam, by shooting: Bθ'' = −w(L − s) cos θ, θ(0) = 0, θ'(L) = 0.
@@ -38,13 +38,13 @@ double sag_of_beam(const Strip& strip);
 // --- a sheet that is stretched between clamps (Fig. 16)
 
 // 25 × 10 cm, h .1 mm, ν ½, longer by 12.78 %; E 1 MPa, which does not matter.
-DrapeScene sheet_scene(double edge, bool stvk);
+cloth::DrapeScene sheet_scene(double edge, bool stvk);
 // Whole waves across the middle of the sheet, whose heights are more than a tenth of the greatest; and that
 // height, m, half of crest to trough.
 struct Crossing {
   double waves = 0, amplitude = 0;
 };
-Crossing waves_across(const DrapeScene& scene, const shell::Positions& positions);
+Crossing waves_across(const cloth::DrapeScene& scene, const shell::Positions& positions);
 
 // --- a curtain gathered to waves along its upper edge (Fig. 17, 18 d)
 
@@ -57,12 +57,13 @@ struct Curtain {
   double bending = 2e-6, modulus = 1e6, weight = 0.15;
 };
 // `guess`: where the start changes from one wave to the other, m below the edge.
-DrapeScene curtain_scene(const Curtain& curtain, double edge, double guess);
+cloth::DrapeScene curtain_scene(const Curtain& curtain, double edge, double guess);
 // How far below the upper edge half, and nine tenths, of the cloth's slack lie in the long wave; m, −1 where
 // that is never so.
 struct Transition {
   double half = -1, most = -1;
 };
-Transition transition_of(const Curtain& curtain, const DrapeScene& scene, const shell::Positions& positions);
+Transition transition_of(const Curtain& curtain, const cloth::DrapeScene& scene,
+                         const shell::Positions& positions);
 
 }  // namespace plisse::bench

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/eigen_glm.h"
-#include "pipeline/drape_examples.h"
+#include "cloth/drape_examples.h"
 
 namespace plisse::bench {
 
@@ -15,31 +15,31 @@ std::vector<std::uint32_t> corners(const std::vector<shell::Face>& faces) {
 
 Solved solve(const Setup& setup, const std::string& example, int vertices) {
   Solved solved;
-  const DrapeScene scene = drape_example(example, vertices);
+  const cloth::DrapeScene scene = cloth::drape_example(example, vertices);
   const Sample began = now();
-  solved.base = base_of(scene);
+  solved.base = cloth::base_of(scene);
   solved.base_s = (now() - began).wall_s;
 
   const auto folder = setup.folder / "solved";
   const std::string name = fmt::format("{}_{}", example, solved.vertices());
   solved.base_file = folder / (name + "_base.ply");
   solved.field_file = folder / (name + "_field.ply");
-  DrapeFrame frame;
+  cloth::DrapeFrame frame;
   frame.equilibrium.converged = true;
-  write_base(solved.base_file, scene, frame, solved.base.surface.positions);
+  cloth::write_base(solved.base_file, scene, frame, solved.base.surface.positions);
 
-  WrinkleRequest request;
+  cloth::WrinkleRequest request;
   request.scene = solved.base;
   request.output = solved.field_file;
   const Sample solving = now();
-  solved.field = wrinkle_field(request);
+  solved.field = cloth::wrinkle_field(request);
   solved.field_s = (now() - solving).wall_s;
   return solved;
 }
 
-SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field, FieldUse use,
-                         int width, int height) {
-  SceneSettings settings;
+config::SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field,
+                                 config::FieldUse use, int width, int height) {
+  config::SceneSettings settings;
   settings.model.path = base;
   settings.bias.field = field;
   settings.bias.use = use;

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "bench/suite.h"
+#include "cloth/drape.h"
+#include "cloth/wrinkle.h"
 #include "mesh/measure_waves.h"
-#include "pipeline/drape.h"
-#include "pipeline/wrinkle.h"
 
 namespace plisse::bench {
 
 struct Solved {
-  WrinkleScene base;
-  WrinkleReport field;
+  cloth::WrinkleScene base;
+  cloth::WrinkleReport field;
   double base_s = 0, field_s = 0;               // wall clock
   std::filesystem::path base_file, field_file;  // under the report's folder
 
@@ -25,8 +25,8 @@ struct Solved {
 Solved solve(const Setup& setup, const std::string& example, int vertices);
 
 // The base surface as a scene of its own at this size; `field`: none, or the file.
-SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field, FieldUse use,
-                         int width, int height);
+config::SceneSettings still_life(const std::filesystem::path& base, const std::filesystem::path& field,
+                                 config::FieldUse use, int width, int height);
 
 std::vector<std::uint32_t> corners(const std::vector<shell::Face>& faces);
 

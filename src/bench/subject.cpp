@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
+#include "pipeline/look.h"
 #include "pipeline/stepper.h"
 
 namespace plisse::bench {
@@ -28,7 +29,7 @@ void add_bone_weights(PaletteInfluences& influences, double x) {
   }
 }
 
-std::vector<glm::dmat4> bent(double squeeze, double angle, const passes::ModelUnits& units) {
+std::vector<glm::dmat4> bent(double squeeze, double angle, const ModelUnits& units) {
   std::vector<glm::dmat4> palette;
   for (int i = 0; i < bones; ++i) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1), angle * i, glm::dvec3(0, 1, 0));
@@ -51,10 +52,10 @@ Subject subject_of(pipeline::LoadedScene& scene, const std::string& name) {
     auto& palette = subject.palettes.emplace_back();
     for (const glm::dmat4& m : scene.animation.pose(frame).palette) palette.push_back(scene.units.matrix(m));
   }
-  subject.look = scene.look();
+  subject.look = pipeline::look_of(scene);
   subject.profile = scene.profile;
-  subject.parts = scene.draw_parts();
-  subject.textures = scene.texture_levels();
+  subject.parts = pipeline::draw_parts(scene);
+  subject.textures = pipeline::texture_levels(scene);
   subject.view = scene.view(1);
   subject.dead_zone = scene.settings.wrinkles.dead_zone;
   return subject;
@@ -134,10 +135,10 @@ void Rig::restart() {
   frame_ = 0;
 }
 
-void Rig::advance(const RelaxSettings& settings) {
+void Rig::advance(const config::RelaxSettings& settings) {
   skin();
   if (frame_ % static_cast<std::size_t>(settings.interval) == 0) {
-    crush_.run(surface_, subject_.dead_zone, settings.mode == RelaxMode::descent);
+    crush_.run(surface_, subject_.dead_zone, settings.mode == config::RelaxMode::descent);
     relax_.run(surface_, pipeline::relax_options(settings));
   }
   frame_ = (frame_ + 1) % subject_.palettes.size();

@@ -7,10 +7,10 @@
 
 #include "config/settings.h"
 #include "gpu/target.h"
+#include "mesh/model_units.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "passes/crush.h"
-#include "passes/model_units.h"
 #include "passes/profile.h"
 #include "passes/relax.h"
 #include "passes/render.h"
@@ -25,7 +25,7 @@ struct Subject {
   Surface surface;
   RestFrames rest;
   VertexWaves waves;
-  passes::ModelUnits units;
+  ModelUnits units;
   std::vector<std::vector<glm::dmat4>> palettes;  // one a frame, in model units
   passes::Look look;
   passes::Profile profile;
@@ -59,7 +59,7 @@ class Rig {
   // Back before the clip's first frame, with nothing remembered.
   void restart();
   // The next frame under these settings: crush and relax every n-th frame alone.
-  void advance(const RelaxSettings& settings);
+  void advance(const config::RelaxSettings& settings);
 
   passes::SurfaceBuffers& surface() { return surface_; }
   bool software() const { return software_; }

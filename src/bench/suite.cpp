@@ -5,8 +5,8 @@
 
 namespace plisse::bench {
 
-SceneSettings Setup::scene(const std::string& name, int width, int height) const {
-  SceneSettings settings = load_scene((assets / (name + ".toml")).string());
+config::SceneSettings Setup::scene(const std::string& name, int width, int height) const {
+  config::SceneSettings settings = config::load_scene((assets / (name + ".toml")).string());
   settings.output.width = width;
   settings.output.height = height;
   settings.model.loop = false;

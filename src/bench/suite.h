@@ -22,7 +22,7 @@ struct Setup {
   }
   Turns turns() const { return pick<Turns>({1, 0}, {3, 0.005}, {9, 0.02}); }
   // A scene of the project's own ("sleeve") at this size, as a clip that does not loop.
-  SceneSettings scene(const std::string& name, int width, int height) const;
+  config::SceneSettings scene(const std::string& name, int width, int height) const;
   // Writes pictures/NAME.png and adds it.
   void save(SuiteReport& report, const std::string& name, const io::Image& image,
             const std::string& caption) const;

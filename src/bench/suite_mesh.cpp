@@ -20,7 +20,7 @@ const std::string example = "stretched-sheet";
 
 // Vertices of an even mesh of this area whose edges are what the fabric asks for: equilateral triangles, half
 // a vertex each.
-double recommended_vertices(const WrinkleScene& scene) {
+double recommended_vertices(const cloth::WrinkleScene& scene) {
   double area = 0;
   for (const auto& face : scene.surface.rest) area += face.area;
   const double edge =
@@ -58,8 +58,9 @@ SuiteReport measure_mesh(const Setup& setup) {
   std::vector<Mesh> meshes;
   for (const double factor : factors) {
     Mesh mesh{factor, solve(setup, example, static_cast<int>(std::lround(factor * recommended))), {}};
-    const SceneSettings settings = still_life(mesh.solved.base_file, mesh.solved.field_file, FieldUse::direct,
-                                              setup.pick(64, 640, 1280), setup.pick(52, 512, 1024));
+    const config::SceneSettings settings =
+        still_life(mesh.solved.base_file, mesh.solved.field_file, config::FieldUse::direct,
+                   setup.pick(64, 640, 1280), setup.pick(52, 512, 1024));
     Film film(settings, example, context.info().software);
     mesh.frame = take_turns({{"frame", [&] { film.draw(film.rig.surface()); }}}, setup.turns()).front();
     setup.save(

@@ -11,8 +11,9 @@
 #include "bench/film.h"
 #include "bench/solved.h"
 #include "bench/suite.h"
+#include "cloth/drape_examples.h"
 #include "pipeline/displace.h"
-#include "pipeline/drape_examples.h"
+#include "pipeline/look.h"
 #include "pipeline/stepper.h"
 
 namespace plisse::bench {
@@ -46,12 +47,12 @@ class Methods {
   }
 
   void measure() {
-    truth_ = drawn("truth", still(finest_, FieldUse::direct), 0);
+    truth_ = drawn("truth", still(finest_, config::FieldUse::direct), 0);
     passes_alone();
     const double solving = solved_.base_s + solved_.field_s;
-    outcomes_.push_back(drawn("passes, field as bias", still(solved_, FieldUse::bias), solving));
-    outcomes_.push_back(drawn("field drawn directly", still(solved_, FieldUse::direct), solving));
-    outcomes_.push_back(drawn("field as geometry", still(solved_, FieldUse::direct), solving, true));
+    outcomes_.push_back(drawn("passes, field as bias", still(solved_, config::FieldUse::bias), solving));
+    outcomes_.push_back(drawn("field drawn directly", still(solved_, config::FieldUse::direct), solving));
+    outcomes_.push_back(drawn("field as geometry", still(solved_, config::FieldUse::direct), solving, true));
     buckled();
     write_rows();
   }
@@ -64,14 +65,14 @@ class Methods {
 
  private:
   static int coarse(const Setup& setup) { return setup.pick(150, 500, 500); }
-  SceneSettings still(const Solved& solved, FieldUse use) const {
+  config::SceneSettings still(const Solved& solved, config::FieldUse use) const {
     return still_life(solved.base_file, solved.field_file, use, width(), height());
   }
   int width() const { return setup_.pick(64, 640, 1280); }
   int height() const { return setup_.pick(52, 512, 1024); }
 
   // Steps a scene to its last frame, draws it and measures its waves as geometry.
-  Outcome drawn(const std::string& label, const SceneSettings& settings, double seconds,
+  Outcome drawn(const std::string& label, const config::SceneSettings& settings, double seconds,
                 bool as_geometry = false) {
     pipeline::LoadedScene scene(settings);
     gpu::StageTimer timer(context_.info().software);
@@ -80,7 +81,8 @@ class Methods {
     stepper.advance_to(scene.step_of_frame(frame));
     const gpu::Target target(width(), height(), 4, gpu::Target::Format::srgb8);
     const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << setup_.pick(1, 3, 3)));
-    passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+    passes::RenderPass pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+                            pipeline::texture_levels(scene), "");
     const Sample began = now();
     pass.draw(stepper.surface(), scene.view(frame), target, context_.info().software);
     finish();
@@ -109,25 +111,26 @@ class Methods {
   // From the flat cloth to the base surface in two frames: what an animation without any solved field would
   // show.
   void passes_alone() {
-    const DrapeScene scene = drape_example(example, coarse(setup_));
-    DrapeFrame frame;
+    const cloth::DrapeScene scene = cloth::drape_example(example, coarse(setup_));
+    cloth::DrapeFrame frame;
     frame.equilibrium.converged = true;
     const auto folder = setup_.folder / "solved";
-    write_base(folder / "pull_0001.ply", scene, frame, scene.start);
-    write_base(folder / "pull_0002.ply", scene, frame, solved_.base.surface.positions);
-    SceneSettings settings = still_life(folder / "pull_####.ply", "", FieldUse::bias, width(), height());
+    cloth::write_base(folder / "pull_0001.ply", scene, frame, scene.start);
+    cloth::write_base(folder / "pull_0002.ply", scene, frame, solved_.base.surface.positions);
+    config::SceneSettings settings =
+        still_life(folder / "pull_####.ply", "", config::FieldUse::bias, width(), height());
     outcomes_.push_back(drawn("passes alone", settings, solved_.base_s));
   }
 
   // St. Venant-Kirchhoff: no tension field, the mesh itself has to hold the waves.
   void buckled() {
-    DrapeScene scene = drape_example(example, setup_.pick(150, 2000, 8000));
+    cloth::DrapeScene scene = cloth::drape_example(example, setup_.pick(150, 2000, 8000));
     scene.stretching = shell::Stretching::stvk;
     scene.bending = shell::Bending::midedge;
     scene.perturb = 0.1 * scene.material.thickness;
-    DrapeRequest request{scene, "", setup_.folder / "solved" / "stvk.ply", {}};
-    const DrapeReport drape = plisse::drape(request);
-    const WrinkleScene base = read_base(request.output);
+    cloth::DrapeRequest request{scene, "", setup_.folder / "solved" / "stvk.ply", {}};
+    const cloth::DrapeReport drape = cloth::drape(request);
+    const cloth::WrinkleScene base = cloth::read_base(request.output);
     outcomes_.push_back(measured(
         fmt::format("StVK shell, {} vertices{}", drape.vertices, drape.converged ? "" : ", not converged"),
         drape.wall_s, points_to_glm(base.surface.positions), corners(base.surface.topology.faces)));

@@ -12,9 +12,10 @@
 #include "base/colour.h"
 #include "bench/film.h"
 #include "bench/suite.h"
+#include "config/settings.h"
 #include "io/flip.h"
 #include "io/png.h"
-#include "pipeline.h"
+#include "pipeline/render.h"
 
 namespace plisse::bench {
 namespace {
@@ -47,7 +48,7 @@ io::Image shrunk(const io::Image& large, int factor) {
 
 io::Image drawn(const Setup& setup, int width, int height, int samples, bool software,
                 std::optional<Film>& film) {
-  SceneSettings settings = setup.scene(scene_name, width, height);
+  config::SceneSettings settings = setup.scene(scene_name, width, height);
   settings.output.samples = samples;
   film.emplace(settings, scene_name, software);
   film->rig.step_to_middle();
@@ -111,16 +112,17 @@ void measure_samples(const Setup& setup, SuiteReport& report) {
 // Whole runs, files and all, by --threads.
 void measure_threads(const Setup& setup, SuiteReport& report) {
   const int frames = setup.pick(2, 12, 48);
-  SceneSettings settings = setup.scene(scene_name, setup.pick(64, 640, 1280), setup.pick(52, 512, 1024));
+  config::SceneSettings settings =
+      setup.scene(scene_name, setup.pick(64, 640, 1280), setup.pick(52, 512, 1024));
   settings.model.frames = fmt::format("1-{}", frames);
   const auto folder = setup.folder / "frames";
   const auto run = [&](std::size_t threads, const std::string& name) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    RenderRequest request;
+    pipeline::RenderRequest request;
     request.scene = settings;
     request.scene.output.path = (folder / name / "frame_####.png").string();
     request.device = setup.device;
-    plisse::render(request, {});
+    pipeline::render(request, {});
   };
   std::vector<Case> cases;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());

@@ -9,6 +9,7 @@
 #include "bench/plain_cpp.h"
 #include "bench/suite.h"
 #include "io/flip.h"
+#include "pipeline/look.h"
 #include "reference/functions.h"
 #include "reference/relax.h"
 #include "reference/render.h"
@@ -73,8 +74,8 @@ class Precision {
 
  private:
   // The surface alone, one sample: what the reference's rasteriser makes too.
-  static SceneSettings settings(const Setup& setup, const std::string& name) {
-    SceneSettings result = setup.scene(name, setup.pick(64, 320, 640), setup.pick(52, 256, 512));
+  static config::SceneSettings settings(const Setup& setup, const std::string& name) {
+    config::SceneSettings result = setup.scene(name, setup.pick(64, 320, 640), setup.pick(52, 256, 512));
     result.output.samples = 1;
     result.output.ground = result.light.shadows = false;
     return result;
@@ -108,9 +109,9 @@ class Precision {
 
   void skin() {
     const int frame = static_cast<int>(film_.subject.palettes.size() / 2) + 1;
-    const Pose pose = film_.scene.animation.pose(frame);
+    const scene::Pose pose = film_.scene.animation.pose(frame);
     film_.rig.skin();
-    const WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
     const Eigen::Matrix3Xd expected = film_.reference.positions(pose);
     const double box = (expected.rowwise().maxCoeff() - expected.rowwise().minCoeff()).norm();
     RootMeanSquare error;
@@ -128,7 +129,7 @@ class Precision {
 
   void crush() {
     const auto& reference = film_.reference;
-    const WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
     PlainSurface plain(film_.rig.surface());
     const auto of_reference = [&] {
       return reference::crush(reference.topology, reference.rest_frames, before.positions, before.frames,
@@ -137,7 +138,7 @@ class Precision {
     };
     const auto expected = of_reference();
     film_.rig.crush();
-    const WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
     const auto dead_zone = static_cast<float>(film_.subject.dead_zone);
     bench::crush(plain, dead_zone, false);
     RootMeanSquare shader, cpp;
@@ -161,12 +162,12 @@ class Precision {
   void relax() {
     film_.rig.relax(1, true);  // phases for those that began to wave
     const auto& topology = film_.reference.topology;
-    const WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
     PlainSurface plain(film_.rig.surface());
     reference::WaveField field = before.field();
     for (int i = 0; i < rounds; ++i) reference::descent_round(topology, field, epsilon);
     film_.rig.relax(rounds, false);
-    const WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
     const auto of_plain = [&](bool threads) {
       for (int i = 0; i < rounds; ++i) descend(plain, static_cast<float>(epsilon), threads);
     };
@@ -196,7 +197,7 @@ class Precision {
   }
 
   void render() {
-    const WaveSnapshot waves = pipeline::read_snapshot(film_.rig.surface());
+    const pipeline::WaveSnapshot waves = pipeline::read_snapshot(film_.rig.surface());
     const auto textures = pipeline::reference_textures(film_.scene);
     reference::Picture drawn;
     const auto of_reference = [&] {
@@ -204,7 +205,8 @@ class Precision {
                                 film_.target.width(), film_.target.height());
     };
     of_reference();
-    const io::Image shader = film_.picture(), expected = composed(drawn, film_.scene.look().background);
+    const io::Image shader = film_.picture(),
+                    expected = composed(drawn, pipeline::look_of(film_.scene).background);
     std::vector<std::uint8_t> mask(drawn.triangle.size());
     for (std::size_t i = 0; i < mask.size(); ++i)
       mask[i] = drawn.triangle[i] >= 0 && !drawn.silhouette[i] ? 1 : 0;

@@ -14,11 +14,12 @@ namespace {
 
 struct Setting {
   std::string series, label;
-  RelaxSettings relax;
+  config::RelaxSettings relax;
 };
 
-RelaxSettings relaxation(RelaxMode mode, int rounds, double epsilon = 13.2, int interval = 1) {
-  RelaxSettings settings;
+config::RelaxSettings relaxation(config::RelaxMode mode, int rounds, double epsilon = 13.2,
+                                 int interval = 1) {
+  config::RelaxSettings settings;
   settings.mode = mode;
   settings.rounds = rounds;
   settings.epsilon = epsilon;
@@ -27,7 +28,7 @@ RelaxSettings relaxation(RelaxMode mode, int rounds, double epsilon = 13.2, int 
 }
 
 std::vector<Setting> settings_to_try() {
-  using enum RelaxMode;
+  using enum config::RelaxMode;
   std::vector<Setting> settings;
   for (const int rounds : {1, 2, 4, 16, 64})
     settings.push_back(
@@ -60,12 +61,12 @@ class Clip {
  public:
   Clip(Film& film, std::vector<int> frames) : film_(film), frames_(std::move(frames)) {}
 
-  void run(const RelaxSettings& settings) const {
+  void run(const config::RelaxSettings& settings) const {
     film_.rig.restart();
     for (int frame = 0; frame <= frames_.back(); ++frame) film_.rig.advance(settings);
     finish();
   }
-  std::vector<Look> look(const RelaxSettings& settings) const {
+  std::vector<Look> look(const config::RelaxSettings& settings) const {
     std::vector<Look> result;
     film_.rig.restart();
     for (int frame = 0; frame <= frames_.back(); ++frame) {

@@ -11,6 +11,7 @@
 #include "bench/suite.h"
 #include "io/flip.h"
 #include "passes/displacement.h"
+#include "pipeline/look.h"
 
 namespace plisse::bench {
 namespace {
@@ -27,17 +28,17 @@ class Geometry {
       : film_(film),
         mesh_(subdivide(film.scene.surface(), 1 << levels)),
         buffers_(film.scene.surface(), mesh_),
-        displacement_(mesh_, film.scene.profile, film.scene.look().smooth_blend, film.scene.look().field,
-                      film.scene.look().cavity, "") {
-    passes::Look look = film.scene.look();
+        displacement_(mesh_, film.scene.profile, pipeline::look_of(film.scene).smooth_blend,
+                      pipeline::look_of(film.scene).field, pipeline::look_of(film.scene).cavity, "") {
+    passes::Look look = pipeline::look_of(film.scene);
     look.displaced = true;
-    auto parts = film.scene.draw_parts();
+    auto parts = pipeline::draw_parts(film.scene);
     for (passes::DrawPart& part : parts) {
       const auto small = mesh_.small_triangles(part.first_triangle, part.triangle_count);
       part.first_triangle = small.first;
       part.triangle_count = small.count;
     }
-    pass_.emplace(look, film.scene.profile, parts, film.scene.texture_levels(), "");
+    pass_.emplace(look, film.scene.profile, parts, pipeline::texture_levels(film.scene), "");
   }
   // A frame of it: moved and drawn.
   void draw() {

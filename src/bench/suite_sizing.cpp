@@ -12,9 +12,9 @@
 #include "base/atomic_file.h"
 #include "bench/sizing_scenes.h"
 #include "bench/suite.h"
+#include "cloth/drape.h"
+#include "cloth/wrinkle.h"
 #include "io/svg_plot.h"
-#include "pipeline/drape.h"
-#include "pipeline/wrinkle.h"
 #include "shell/carry.h"
 #include "sizing/rules.h"
 
@@ -35,8 +35,8 @@ struct Solved {
   double seconds = 0;  // of all cores
 };
 
-Solved solve(const DrapeScene& scene) {
-  const shell::Shell shell = shell_of(scene);
+Solved solve(const cloth::DrapeScene& scene) {
+  const shell::Shell shell = cloth::shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
   const Sample began = now();
   Solved solved{shell::find_equilibrium(shell, conditions, scene.loads,
@@ -75,7 +75,7 @@ void measure_sheet(const Setup& setup, SuiteReport& report) {
   for (const bool stvk : {true, false}) {
     std::vector<std::pair<Row, Crossing>> all;
     for (const double edge : edges) {
-      const DrapeScene scene = sheet_scene(edge, stvk);
+      const cloth::DrapeScene scene = sheet_scene(edge, stvk);
       Crossing crossing;
       const Solved solved = solve(scene);
       double seconds = solved.seconds;
@@ -83,13 +83,13 @@ void measure_sheet(const Setup& setup, SuiteReport& report) {
       if (stvk) {
         crossing = waves_across(scene, solved.rest.positions);
       } else {
-        DrapeScene base = scene;
+        cloth::DrapeScene base = scene;
         base.start = solved.rest.positions;
         base.solved = true;
-        WrinkleRequest request;
-        request.scene = base_of(base);
+        cloth::WrinkleRequest request;
+        request.scene = cloth::base_of(base);
         const Sample began = now();
-        const WrinkleReport field = wrinkle_field(request);
+        const cloth::WrinkleReport field = cloth::wrinkle_field(request);
         seconds += (now() - began).cpu_s;
         converged &= field.field.whole.converged;
         crossing = {field.field.waves, field.max_amplitude};
@@ -194,7 +194,7 @@ void measure_curtain(const Setup& setup, SuiteReport& report) {
         plot.series[3].points.push_back(at(bending, mm * by_compression));
         plot.series[4].points.push_back(at(bending, mm * by_tension));
       }
-      const DrapeScene scene = curtain_scene(curtain, edge, 0.03);
+      const cloth::DrapeScene scene = curtain_scene(curtain, edge, 0.03);
       const Solved solved = solve(scene);
       const Transition found = transition_of(curtain, scene, solved.rest.positions);
       if (found.most < 0) continue;

@@ -84,7 +84,7 @@ SceneArguments::SceneArguments(CommandOptions& options, const Wanted& wanted) : 
       "input", input_, "SCENE.toml|MODEL",
       described("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder; or a "
                 "panel file (docs/sizing.md)"));
-  for (const SceneOption& option : scene_options()) {
+  for (const config::SceneOption& option : config::scene_options()) {
     if (!wanted(option.name)) continue;
     Given& given = given_.emplace_back(Given{option.name, {}});
     const std::string names = option.name == "--output" ? "-o,--output" : option.name;
@@ -95,24 +95,24 @@ SceneArguments::SceneArguments(CommandOptions& options, const Wanted& wanted) : 
   options.set_headline("");
 }
 
-SceneSettings SceneArguments::settings() const {
+config::SceneSettings SceneArguments::settings() const {
   if (input_.empty()) {
     throw Error(ExitCode::bad_input,
                 fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", command_));
   }
-  SceneSettings scene;
+  config::SceneSettings scene;
   if (!is_scene(input_)) {
-    scene = bare_scene(input_);
-  } else if (is_panel_file(input_)) {
+    scene = config::bare_scene(input_);
+  } else if (config::is_panel_file(input_)) {
     scene.model.garment = input_;
   } else {
-    scene = load_scene(input_);
+    scene = config::load_scene(input_);
   }
-  GivenOptions options;
+  config::GivenOptions options;
   for (const Given& given : given_) {
     if (!given.values.empty()) options.emplace_back(given.option, given.values);
   }
-  apply_options(scene, options);
+  config::apply_options(scene, options);
   return scene;
 }
 
@@ -136,8 +136,8 @@ int DeviceArguments::device() const {
   return device_.empty() ? -1 : whole_number("--device", device_, 0, 255);
 }
 
-FrameCallback frame_progress(Progress& progress) {
-  return [&progress](int done, int total, const FrameReport& frame) {
+pipeline::FrameCallback frame_progress(Progress& progress) {
+  return [&progress](int done, int total, const pipeline::FrameReport& frame) {
     std::string what = frame.path.empty() ? fmt::format("frame {}", frame.frame) : frame.path;
     if (!frame.error.empty()) what = fmt::format("frame {} failed: {}", frame.frame, frame.error);
     if (frame.skipped) what += " (skipped)";

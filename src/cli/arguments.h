@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "cli/command_line.h"
 #include "config/settings.h"
-#include "pipeline.h"
+#include "pipeline/render.h"
 
 namespace plisse::cli {
 
@@ -54,7 +54,7 @@ class SceneArguments {
   explicit SceneArguments(
       CommandOptions& options, const Wanted& wanted = [](const std::string&) { return true; });
   // Reads the scene, or takes the defaults for a bare model, and applies the options.
-  SceneSettings settings() const;
+  config::SceneSettings settings() const;
 
  private:
   struct Given {
@@ -83,6 +83,6 @@ class DeviceArguments {
 };
 
 // Shows the frames of a run as they are done.
-FrameCallback frame_progress(Progress& progress);
+pipeline::FrameCallback frame_progress(Progress& progress);
 
 }  // namespace plisse::cli

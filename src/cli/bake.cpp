@@ -15,7 +15,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "config/suggest.h"
-#include "pipeline.h"
+#include "pipeline/bake.h"
 
 namespace plisse::cli {
 namespace {
@@ -41,8 +41,8 @@ struct Arguments {
                 "Take the shaders from this folder instead of the built-in ones");
   }
 
-  BakeRequest request() const {
-    BakeRequest request;
+  pipeline::BakeRequest request() const {
+    pipeline::BakeRequest request;
     request.scene = scene.settings();
     request.output = output;
     const std::vector<std::string> names{"height", "normal"};
@@ -50,7 +50,7 @@ struct Arguments {
       if (map != "height" && map != "normal") {
         throw Error(ExitCode::bad_input,
                     fmt::format("--maps {}: there is no such map{}; there are: height, normal", map,
-                                did_you_mean(map, names)));
+                                config::did_you_mean(map, names)));
       }
     }
     const auto wanted = [&](const char* map) {
@@ -75,7 +75,7 @@ struct Arguments {
   std::vector<std::string> maps;
 };
 
-ordered_json to_json(const BakeReport& report) {
+ordered_json to_json(const pipeline::BakeReport& report) {
   ordered_json outputs = ordered_json::array();
   for (const auto& output : report.outputs)
     outputs.push_back({{"path", output.path}, {"kind", output.kind}, {"frame", output.frame}});
@@ -94,12 +94,12 @@ int run_bake(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  const BakeRequest request = arguments.request();
+  const pipeline::BakeRequest request = arguments.request();
   install_interrupt_handlers();
-  BakeReport report;
+  pipeline::BakeReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
-    report = bake_maps(request, frame_progress(progress));
+    report = pipeline::bake_maps(request, frame_progress(progress));
   }
   log::notice(fmt::format("{} files in {:.2f} s; black and white of height's PNG are ∓{:.4g} mm → {}",
                           report.outputs.size(), report.wall_s, 1000 * report.scale_m, request.output));

@@ -98,8 +98,9 @@ int run_bench(Arguments& arguments) {
     } else if (word == "hard") {
       throw Error(ExitCode::bad_input, "plisse bench: 'hard' stands alone");
     } else {
-      throw Error(ExitCode::bad_input, fmt::format("plisse bench: there is no '{}'{}; there are {}", word,
-                                                   did_you_mean(word, known), fmt::join(known, ", ")));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("plisse bench: there is no '{}'{}; there are {}", word,
+                              config::did_you_mean(word, known), fmt::join(known, ", ")));
     }
   }
   install_interrupt_handlers();

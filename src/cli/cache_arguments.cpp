@@ -1,6 +1,6 @@
 #include "cli/cache_arguments.h"
 
-#include "pipeline/solved_cache.h"
+#include "cloth/solved_cache.h"
 
 namespace plisse::cli {
 
@@ -11,7 +11,7 @@ CacheArguments::CacheArguments(CommandOptions& options) {
 }
 
 std::filesystem::path CacheArguments::folder() const {
-  if (folder_.empty()) return pipeline::SolvedCache::user_folder();
+  if (folder_.empty()) return cloth::SolvedCache::user_folder();
   return folder_ == "none" ? std::filesystem::path() : std::filesystem::path(folder_);
 }
 

@@ -39,7 +39,8 @@ void reject_extras(const CLI::App& app) {
   for (const std::string& extra : extras) {
     if (!extra.starts_with("-") || extra == "-") continue;
     const std::string option = extra.substr(0, extra.find('='));
-    throw usage(app, fmt::format("unknown option '{}'{}", option, did_you_mean(option, option_names(app))));
+    throw usage(
+        app, fmt::format("unknown option '{}'{}", option, config::did_you_mean(option, option_names(app))));
   }
   if (!extras.empty()) throw usage(app, fmt::format("'{}' is one argument too many", extras.front()));
 }
@@ -159,7 +160,7 @@ int CommandLine::run(int argc, const char* const* argv) {
   if (extras.empty()) throw usage(program, fmt::format("give a command: {}", fmt::join(names, ", ")));
   if (extras.front().starts_with("-")) reject_extras(program);
   throw usage(program, fmt::format("unknown command '{}'{}; there are {}", extras.front(),
-                                   did_you_mean(extras.front(), names), fmt::join(names, ", ")));
+                                   config::did_you_mean(extras.front(), names), fmt::join(names, ", ")));
 }
 
 }  // namespace plisse::cli

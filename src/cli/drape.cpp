@@ -13,15 +13,15 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/units.h"
+#include "bench/drape_cost.h"
 #include "cli/arguments.h"
 #include "cli/cache_arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cloth/drape.h"
+#include "cloth/drape_examples.h"
+#include "cloth/drape_setup.h"
 #include "config/suggest.h"
-#include "pipeline/drape.h"
-#include "pipeline/drape_cost.h"
-#include "pipeline/drape_examples.h"
-#include "pipeline/drape_setup.h"
 
 namespace plisse::cli {
 namespace {
@@ -82,28 +82,28 @@ double number_in(const std::string& option, const std::string& text, double low,
   return *value;
 }
 
-DrapeScene scene_of(const Arguments& arguments) {
+cloth::DrapeScene scene_of(const Arguments& arguments) {
   if (arguments.input.empty() == arguments.example.empty())
     throw Error(ExitCode::bad_input,
                 "plisse drape: give a SCENE.toml, a SETUP.json or --example NAME; see 'plisse drape --help'");
-  DrapeScene scene;
+  cloth::DrapeScene scene;
   if (!arguments.example.empty()) {
     const int vertices =
         arguments.vertices.empty() ? 0 : whole_number("--vertices", arguments.vertices, 20, 1000000);
     const int seed = arguments.seed.empty() ? 1 : whole_number("--seed", arguments.seed, 0, 2147483647);
-    scene = drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed));
+    scene = cloth::drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed));
   } else {
     if (!arguments.vertices.empty() || !arguments.seed.empty())
       throw Error(ExitCode::bad_input,
                   "--vertices and --seed are for --example: a scene file has its own mesh");
-    scene = load_drape(arguments.input);
+    scene = cloth::load_drape(arguments.input);
   }
   if (!arguments.model.empty()) {
     const std::vector<std::string> models = {"tension-field", "stvk"};
     if (arguments.model != models[0] && arguments.model != models[1])
       throw Error(ExitCode::bad_input,
                   fmt::format("--model: unknown model '{}'{}; there are tension-field and stvk",
-                              arguments.model, did_you_mean(arguments.model, models)));
+                              arguments.model, config::did_you_mean(arguments.model, models)));
     const bool stvk = arguments.model == "stvk";
     scene.stretching = stvk ? shell::Stretching::stvk : shell::Stretching::tension_field;
     scene.bending = stvk ? shell::Bending::midedge : shell::Bending::quadratic;
@@ -128,11 +128,11 @@ DrapeScene scene_of(const Arguments& arguments) {
   if (!arguments.iterations.empty())
     scene.newton.max_iterations = whole_number("--iterations", arguments.iterations, 1, 1000000);
   if (!arguments.steps.empty()) scene.frames = whole_number("--steps", arguments.steps, 1, 1000000);
-  if (!arguments.start.empty()) scene.start = read_start(arguments.start, scene);
+  if (!arguments.start.empty()) scene.start = cloth::read_start(arguments.start, scene);
   return scene;
 }
 
-ordered_json to_json(const DrapeFrame& frame) {
+ordered_json to_json(const cloth::DrapeFrame& frame) {
   const shell::Equilibrium& e = frame.equilibrium;
   ordered_json trace = ordered_json::array();
   for (const shell::NewtonStep& step : e.trace)
@@ -165,9 +165,9 @@ ordered_json to_json(const DrapeFrame& frame) {
   return json;
 }
 
-ordered_json to_json(const DrapeReport& report, const std::string& model) {
+ordered_json to_json(const cloth::DrapeReport& report, const std::string& model) {
   ordered_json frames = ordered_json::array(), outputs = ordered_json::array();
-  for (const DrapeFrame& frame : report.frames) frames.push_back(to_json(frame));
+  for (const cloth::DrapeFrame& frame : report.frames) frames.push_back(to_json(frame));
   for (const auto& path : report.outputs)
     outputs.push_back({{"path", path.string()}, {"kind", path.extension() == ".pc2" ? "cache" : "base"}});
   ordered_json json = {{"vertices", report.vertices}, {"faces", report.faces}, {"model", model}};
@@ -202,13 +202,13 @@ int run_costs(Arguments arguments) {
                         "full load in one go");
   check_writable(output);
   install_interrupt_handlers();
-  const auto costs = drape_costs(
+  const auto costs = bench::drape_costs(
       [&](int vertices) {
         arguments.vertices = std::to_string(vertices);
         return scene_of(arguments);
       },
       sizes,
-      [](const DrapeCost& cost) {
+      [](const bench::DrapeCost& cost) {
         log::notice(fmt::format(
             "{} vertices: {} steps, {:.3g} s ({:.3g} s of CPU time), assembly {:.0f} %, "
             "factorisation {:.0f} %{}",
@@ -216,11 +216,11 @@ int run_costs(Arguments arguments) {
             100 * cost.factor_s / cost.wall_s, cost.converged ? "" : ", NOT CONVERGED"));
       });
   if (interrupted()) return 128 + signal_number();
-  plot_costs(output, arguments.example, costs);
+  bench::plot_costs(output, arguments.example, costs);
   log::notice(fmt::format("→ {}", output.string()));
   ordered_json json = {{"example", arguments.example}, {"costs", ordered_json::array()}};
   bool converged = true;
-  for (const DrapeCost& cost : costs) {
+  for (const bench::DrapeCost& cost : costs) {
     converged = converged && cost.converged;
     json["costs"].push_back({{"vertices", cost.vertices},
                              {"iterations", cost.iterations},
@@ -243,14 +243,15 @@ int run_drape(Arguments& arguments) {
   arguments.common.apply();
   if (arguments.list) {
     std::string text;
-    for (const DrapeExample& example : drape_examples())
+    for (const cloth::DrapeExample& example : cloth::drape_examples())
       text += padded(example.name, 27) + padded(fmt::format("{} vertices", example.vertices), 16) +
               example.what + "\n";
     write_stdout(text);
     return 0;
   }
   if (!arguments.cost.empty()) return run_costs(arguments);
-  DrapeRequest request{scene_of(arguments), arguments.frames, arguments.output, {}, arguments.cache.folder()};
+  cloth::DrapeRequest request{
+      scene_of(arguments), arguments.frames, arguments.output, {}, arguments.cache.folder()};
   const std::string model = request.scene.stretching == shell::Stretching::stvk ? "stvk" : "tension-field";
   install_interrupt_handlers();
   Progress progress(Progress::style_for_stderr(arguments.common.quiet()) == Progress::Style::bar
@@ -262,8 +263,8 @@ int run_drape(Arguments& arguments) {
         fmt::format("frame {} step {}: {:.12g} J, unbalanced {:.2e} N, {:.3g} of the Newton step, {:.2f} s",
                     frame, step.iteration, step.energy, step.gradient_inf, step.step, step.seconds));
   };
-  const DrapeReport report = drape(request);
-  for (const DrapeFrame& frame : report.frames) {
+  const cloth::DrapeReport report = cloth::drape(request);
+  for (const cloth::DrapeFrame& frame : report.frames) {
     std::string measures;
     for (const auto& [name, value] : frame.measures) measures += fmt::format(", {} {:.6g}", name, value);
     log::notice(fmt::format("{}frame {}: {} vertices, {:.9g} J after {} steps ({}){}",

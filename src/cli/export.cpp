@@ -12,7 +12,8 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
-#include "pipeline.h"
+#include "mesh/subdivide.h"
+#include "pipeline/export.h"
 
 namespace plisse::cli {
 namespace {
@@ -43,7 +44,7 @@ struct Arguments {
   std::string output, levels, outside, shaders;
 };
 
-ordered_json to_json(const ExportReport& report) {
+ordered_json to_json(const pipeline::ExportReport& report) {
   ordered_json outputs = ordered_json::array();
   for (const auto& output : report.outputs) {
     ordered_json entry = {{"path", output.path}, {"kind", output.kind}};
@@ -66,7 +67,7 @@ int run_export(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  ExportRequest request;
+  pipeline::ExportRequest request;
   request.scene = arguments.scene.settings();
   request.output = arguments.output;
   if (!arguments.levels.empty()) request.levels = whole_number("--levels", arguments.levels, 0, most_levels);
@@ -74,10 +75,10 @@ int run_export(Arguments& arguments) {
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
-  ExportReport report;
+  pipeline::ExportReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
-    report = export_geometry(request, frame_progress(progress));
+    report = pipeline::export_geometry(request, frame_progress(progress));
   }
   log::notice(fmt::format("{} file{} in {:.2f} s: {} vertices, {} triangles, edges halved {} times → {}",
                           report.outputs.size(), report.outputs.size() == 1 ? "" : "s", report.wall_s,

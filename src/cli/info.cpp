@@ -13,10 +13,12 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/size_options.h"
+#include "config/settings.h"
 #include "io/import.h"
-#include "pipeline.h"
-#include "pipeline/garment_model.h"
+#include "pipeline/render.h"
 #include "scene/animation.h"
+#include "scene/load_model.h"
+#include "scene/wrinkles.h"
 #include "sizing/mesh_fit.h"
 
 namespace plisse::cli {
@@ -124,7 +126,7 @@ ordered_json clips_of(const io::Model& model) {
   return clips;
 }
 
-ordered_json to_json(const io::Model& model, const Animation& animation) {
+ordered_json to_json(const io::Model& model, const scene::Animation& animation) {
   ordered_json cameras = ordered_json::array(), textures = ordered_json::array();
   for (const io::Camera& camera : model.cameras) {
     const bool parallel = camera.half_height > 0;
@@ -139,7 +141,7 @@ ordered_json to_json(const io::Model& model, const Animation& animation) {
         {{"name", texture.name}, {"width", texture.image.width}, {"height", texture.image.height}});
   }
   const Surface& surface = animation.surface();
-  const Animation::Bounds bounds = animation.bounds();
+  const scene::Animation::Bounds bounds = animation.bounds();
   ordered_json sequence = nullptr;
   if (!model.cache.empty()) {
     sequence = {{"frames", model.cache.size()}, {"fps", model.cache.frames_per_second()}};
@@ -156,7 +158,7 @@ ordered_json to_json(const io::Model& model, const Animation& animation) {
           {"bounds", {{"low", to_json(bounds.low)}, {"high", to_json(bounds.high)}}},
           {"units_m", model.metres_per_unit},
           {"up", model.up},
-          {"wavelength_m", default_wavelength(surface)}};
+          {"wavelength_m", scene::default_wavelength(surface)}};
 }
 
 // How each part compares with the resolution of a fabric, in the rest pose.
@@ -285,9 +287,9 @@ std::string table(const ordered_json& info) {
 
 int run_info(Arguments& arguments) {
   arguments.common.apply();
-  const SceneSettings scene = arguments.scene.settings();
-  const io::Model model = pipeline::load_model(scene);
-  const Animation animation(model, {});
+  const config::SceneSettings scene = arguments.scene.settings();
+  const io::Model model = scene::load_model(scene);
+  const scene::Animation animation(model, {});
   ordered_json report = to_json(model, animation);
   if (!arguments.fabric.empty()) {
     const sizing::Fabric fabric = fabric_option(arguments.fabric);

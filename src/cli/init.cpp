@@ -18,8 +18,8 @@
 #include "cli/report.h"
 #include "config/scene_file.h"
 #include "io/import.h"
-#include "pipeline.h"
 #include "scene/animation.h"
+#include "scene/wrinkles.h"
 
 namespace plisse::cli {
 namespace {
@@ -83,7 +83,7 @@ std::string listed(const char* what, const Items& items, const Describe& describ
 // What this model has to choose from, beside the keys that choose.
 std::map<std::string, std::string> notes_on(const io::Model& model) {
   std::map<std::string, std::string> notes;
-  const Animation animation(model, {});
+  const scene::Animation animation(model, {});
   const auto named = [](std::size_t, const auto& item) { return in_quotes(item.name); };
   const auto numbered = [](std::size_t i, const auto& item) {
     return fmt::format("{} {}", i, in_quotes(item.name));
@@ -94,14 +94,14 @@ std::map<std::string, std::string> notes_on(const io::Model& model) {
   notes["wrinkles.exclude"] = listed("Materials", model.materials, named);
   notes["model.frames"] = fmt::format("Frames here: 1 to {}.", animation.timeline().frame_count);
   notes["wrinkles.wavelength"] =
-      fmt::format("From this mesh: {:.4g}.", default_wavelength(animation.surface()));
+      fmt::format("From this mesh: {:.4g}.", scene::default_wavelength(animation.surface()));
   return notes;
 }
 
 int run_init(Arguments& arguments) {
   arguments.common.apply();
   if (arguments.keys_markdown) {
-    write_stdout(scene_reference_markdown());
+    write_stdout(config::scene_reference_markdown());
     return 0;
   }
   const double start = wall_seconds();
@@ -120,11 +120,11 @@ int run_init(Arguments& arguments) {
                 fmt::format("{}: stands there already; --overwrite replaces it", scene.string()));
   }
   const io::Model model = io::import_model(arguments.model, arguments.import_options);
-  const std::string text = scene_text(path_from_scene(arguments.model, scene), notes_on(model));
+  const std::string text = config::scene_text(path_from_scene(arguments.model, scene), notes_on(model));
   // A name that TOML cannot hold is to fail here, not at the next command. The model is looked up through the
   // scene's folder; where that cannot be made, writing says why.
   if (scene.has_parent_path()) fs::create_directories(scene.parent_path(), ignored);
-  if (!ignored) parse_scene(text, scene);
+  if (!ignored) config::parse_scene(text, scene);
   write_whole_file(scene, text);
 
   if (arguments.common.tables_wanted()) write_stdout(fmt::format("{}\n", scene.string()));

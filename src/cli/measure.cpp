@@ -9,7 +9,8 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
-#include "pipeline.h"
+#include "mesh/measure_waves.h"
+#include "pipeline/measure.h"
 
 namespace plisse::cli {
 namespace {
@@ -64,11 +65,11 @@ int run_measure(Arguments& arguments) {
   arguments.common.apply();
   if (arguments.mesh.empty())
     throw Error(ExitCode::bad_input, "plisse measure: give a MESH; see 'plisse measure --help'");
-  MeasureRequest request;
+  pipeline::MeasureRequest request;
   request.mesh = arguments.mesh;
   request.base = arguments.base;
   request.options.up = arguments.up;
-  const MeshSpectrum spectrum = measure(request);
+  const MeshSpectrum spectrum = pipeline::measure(request);
   if (arguments.common.tables_wanted()) write_stdout(table(spectrum));
   write_report(to_json(spectrum), arguments.common.json());
   return 0;

@@ -11,7 +11,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "config/paint_file.h"
-#include "pipeline.h"
+#include "pipeline/paint.h"
 
 namespace plisse::cli {
 namespace {
@@ -33,7 +33,7 @@ struct Arguments {
   std::string input, folder = "painted", shaders;
 };
 
-ordered_json to_json(const PaintReport& report) {
+ordered_json to_json(const pipeline::PaintReport& report) {
   ordered_json outputs = ordered_json::array();
   for (const auto& output : report.outputs) outputs.push_back({{"path", output.path}, {"kind", output.kind}});
   return {{"vertices", report.vertices},
@@ -51,12 +51,12 @@ int run_paint(Arguments& arguments) {
   }
   if (arguments.input.empty())
     throw Error(ExitCode::bad_input, "plisse paint: give a PAINT.toml; see 'plisse paint --help'");
-  PaintRequest request;
-  request.paint = load_paint(arguments.input);
+  pipeline::PaintRequest request;
+  request.paint = config::load_paint(arguments.input);
   request.folder = arguments.folder;
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
-  const PaintReport report = paint_wrinkles(request);
+  const pipeline::PaintReport report = pipeline::paint_wrinkles(request);
   log::notice(fmt::format("{} of {} vertices painted, the strongest {:.2f}, in {:.2f} s → {}",
                           report.painted_vertices, report.vertices, report.largest, report.wall_s,
                           request.folder));

@@ -15,7 +15,8 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
-#include "pipeline.h"
+#include "mesh/subdivide.h"
+#include "pipeline/render.h"
 
 namespace plisse::cli {
 namespace {
@@ -53,11 +54,11 @@ struct Arguments {
                 "Take the shaders from this folder instead of the built-in ones");
   }
 
-  RenderRequest request() const {
+  pipeline::RenderRequest request() const {
     if (skip_existing && overwrite) {
       throw Error(ExitCode::bad_input, "--skip-existing and --overwrite exclude each other");
     }
-    RenderRequest request;
+    pipeline::RenderRequest request;
     request.scene = scene.settings();
     request.skip_existing = skip_existing;
     request.state_file = state;
@@ -86,11 +87,11 @@ struct Arguments {
 };
 
 // An interrupted run leaves the reports of the frames after it empty.
-bool was_reached(const FrameReport& frame) {
+bool was_reached(const pipeline::FrameReport& frame) {
   return frame.frame > 0;
 }
 
-ordered_json to_json(const FrameReport& frame) {
+ordered_json to_json(const pipeline::FrameReport& frame) {
   ordered_json ms = ordered_json::object();
   for (const char* stage : {"skin", "crush", "relax", "displace", "render", "readback", "encode", "write"}) {
     if (const auto found = frame.ms.find(stage); found != frame.ms.end()) ms[stage] = found->second;
@@ -110,9 +111,9 @@ ordered_json to_json(const FrameReport& frame) {
   return json;
 }
 
-ordered_json to_json(const RenderReport& report) {
+ordered_json to_json(const pipeline::RenderReport& report) {
   ordered_json frames = ordered_json::array();
-  for (const FrameReport& frame : report.frames) {
+  for (const pipeline::FrameReport& frame : report.frames) {
     if (was_reached(frame)) frames.push_back(to_json(frame));
   }
   ordered_json objects = ordered_json::array();
@@ -133,9 +134,9 @@ ordered_json to_json(const RenderReport& report) {
 }
 
 // Says how it went.
-void summarise(const RenderReport& report, const std::string& where) {
+void summarise(const pipeline::RenderReport& report, const std::string& where) {
   int reached = 0, failed = 0, skipped = 0;
-  for (const FrameReport& frame : report.frames) {
+  for (const pipeline::FrameReport& frame : report.frames) {
     reached += was_reached(frame) ? 1 : 0;
     skipped += frame.skipped ? 1 : 0;
     if (!frame.error.empty() && ++failed <= 10 && report.outcome == ExitCode::some_frames)
@@ -153,16 +154,16 @@ int run_render(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  const RenderRequest request = arguments.request();
+  const pipeline::RenderRequest request = arguments.request();
   install_interrupt_handlers();
 
   if (!arguments.common.json().empty() && arguments.common.json() != "-")
     check_writable(arguments.common.json());
-  RenderReport report;
+  pipeline::RenderReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
     share_heap();
-    report = render(request, frame_progress(progress));
+    report = pipeline::render(request, frame_progress(progress));
   }
   summarise(report, request.scene.output.path);
   write_report(to_json(report), arguments.common.json());

@@ -30,7 +30,7 @@ void write_report(const nlohmann::ordered_json& report, const std::string& file)
   }
 }
 
-nlohmann::ordered_json to_json(const GlInfo& gl) {
+nlohmann::ordered_json to_json(const pipeline::GlInfo& gl) {
   return {{"vendor", gl.vendor},
           {"renderer", gl.renderer},
           {"version", gl.version},

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline.h"
+#include "pipeline/render.h"
 
 namespace plisse::cli {
 
@@ -16,6 +16,6 @@ void write_stdout(std::string_view text);
 // � in place of what is none.
 void write_report(const nlohmann::ordered_json& report, const std::string& file);
 
-nlohmann::ordered_json to_json(const GlInfo& gl);
+nlohmann::ordered_json to_json(const pipeline::GlInfo& gl);
 
 }  // namespace plisse::cli

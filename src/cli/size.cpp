@@ -16,8 +16,8 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/size_options.h"
+#include "cloth/size.h"
 #include "config/suggest.h"
-#include "pipeline/size.h"
 #include "sizing/fabric.h"
 #include "sizing/resolution.h"
 
@@ -104,9 +104,9 @@ int size_fabric(const Arguments& arguments, const sizing::FabricRange& range,
   return 0;
 }
 
-ordered_json to_json(const SizeReport::Panel& panel) {
+ordered_json to_json(const cloth::SizeReport::Panel& panel) {
   ordered_json features = ordered_json::array();
-  for (const SizeReport::Feature& feature : panel.features) {
+  for (const cloth::SizeReport::Feature& feature : panel.features) {
     features.push_back(
         {{"name", feature.name}, {"rule", feature.rule}, {"resolution_mm", 1e3 * feature.resolution}});
   }
@@ -131,12 +131,12 @@ ordered_json to_json(const SizeReport::Panel& panel) {
 }
 
 // The panels one by one, and over all of them the keys that docs/contract.md promises.
-ordered_json to_json(const SizeReport& report) {
+ordered_json to_json(const cloth::SizeReport& report) {
   ordered_json panels = ordered_json::array(), features = ordered_json::array(),
                outputs = ordered_json::array();
   std::size_t vertices = 0, triangles = 0;
   double expected = 0, within = 1, angle = 180, map = 0, sample = 0, triangulate = 0;
-  for (const SizeReport::Panel& panel : report.panels) {
+  for (const cloth::SizeReport::Panel& panel : report.panels) {
     panels.push_back(to_json(panel));
     for (const ordered_json& feature : panels.back()["features"]) features.push_back(feature);
     vertices += panel.vertices;
@@ -176,16 +176,16 @@ ordered_json to_json(const SizeReport& report) {
           {"outputs", outputs}};
 }
 
-std::string table(const SizeReport& report) {
+std::string table(const cloth::SizeReport& report) {
   std::string text;
-  for (const SizeReport::Panel& panel : report.panels) {
+  for (const cloth::SizeReport::Panel& panel : report.panels) {
     text += fmt::format("{}{}: {} vertices, {} triangles; {:.0f} with {:.3g} mm everywhere\n",
                         text.empty() ? "" : "\n", panel.name, panel.vertices, panel.triangles,
                         panel.uniform_vertices, 1e3 * panel.finest);
     const glm::dvec2 r = 1e3 * panel.fabric_resolution;
     text += padded("  fabric", 28) + (r.x == r.y ? fmt::format("{:.3f} mm\n", r.x)
                                                  : fmt::format("{:.3f} mm weft, {:.3f} mm warp\n", r.x, r.y));
-    for (const SizeReport::Feature& feature : panel.features)
+    for (const cloth::SizeReport::Feature& feature : panel.features)
       text += padded(fmt::format("  {} ({})", feature.name, feature.rule), 28) +
               fmt::format("{:.3f} mm\n", 1e3 * feature.resolution);
     text += fmt::format(
@@ -206,15 +206,15 @@ std::string table(const SizeReport& report) {
 }
 
 int mesh_panels(const Arguments& arguments) {
-  SizeRequest request{arguments.panels, arguments.folder};
+  cloth::SizeRequest request{arguments.panels, arguments.folder};
   if (arguments.folder.empty()) request.folder = std::filesystem::path(arguments.panels).stem();
   if (!arguments.fabric.empty()) request.fabric = fabric_option(arguments.fabric);
-  const SizeReport report = size_panels(request);
+  const cloth::SizeReport report = cloth::size_panels(request);
   if (arguments.common.tables_wanted()) write_stdout(table(report));
   write_report(to_json(report), arguments.common.json());
   // What the mesher promises (docs/sizing.md); an outline smaller than its own mesh size cannot hold it.
   bool holds = true;
-  for (const SizeReport::Panel& panel : report.panels) {
+  for (const cloth::SizeReport::Panel& panel : report.panels) {
     if (panel.quality.lost == 0 && panel.quality.edges_within >= 0.99 && panel.quality.least_angle >= 25)
       continue;
     log::warn(fmt::format(

@@ -21,11 +21,11 @@ auto given_to(const char* option, const std::string& text, const Parse& parse) {
 }  // namespace
 
 sizing::Fabric fabric_option(const std::string& text) {
-  return given_to("--fabric", text, parse_fabric);
+  return given_to("--fabric", text, config::parse_fabric);
 }
 
 sizing::FabricRange range_option(const std::string& text) {
-  return text.empty() ? sizing::FabricRange{} : given_to("--fabric-range", text, parse_fabric_range);
+  return text.empty() ? sizing::FabricRange{} : given_to("--fabric-range", text, config::parse_fabric_range);
 }
 
 }  // namespace plisse::cli

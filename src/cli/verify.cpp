@@ -14,7 +14,8 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
-#include "pipeline.h"
+#include "pipeline/render.h"
+#include "pipeline/verify.h"
 
 namespace plisse::cli {
 namespace {
@@ -37,7 +38,7 @@ struct Arguments {
 };
 
 // "crush.r" stands with "crush", and the passes stand in the order they run in.
-std::vector<std::string> pass_order(const VerifyReport& report) {
+std::vector<std::string> pass_order(const pipeline::VerifyReport& report) {
   constexpr std::array<std::string_view, 5> order = {"skin", "crush", "relax", "displacement", "render"};
   const auto rank = [&](const std::string& name) {
     return std::find(order.begin(), order.end(), std::string_view(name).substr(0, name.find('.'))) -
@@ -50,10 +51,10 @@ std::vector<std::string> pass_order(const VerifyReport& report) {
   return names;
 }
 
-ordered_json to_json(const VerifyReport& report) {
+ordered_json to_json(const pipeline::VerifyReport& report) {
   ordered_json passes = ordered_json::object();
   for (const std::string& name : pass_order(report)) {
-    const PassComparison& pass = report.passes.at(name);
+    const pipeline::PassComparison& pass = report.passes.at(name);
     passes[name] = {{"max_abs", pass.max_abs}, {"rms", pass.rms},   {"tolerance", pass.tolerance},
                     {"ok", pass.ok},           {"unit", pass.unit}, {"compared", pass.compared}};
   }
@@ -74,12 +75,12 @@ ordered_json to_json(const VerifyReport& report) {
           {"failures", report.failures}};
 }
 
-std::string table(const VerifyReport& report) {
+std::string table(const pipeline::VerifyReport& report) {
   std::string text = fmt::format("{} ({})\nframes {}\n\n", report.gl.renderer, report.gl.version,
                                  fmt::join(report.frames, ", "));
   text += fmt::format("{:<20} {:>9} {:>11} {:>11} {:>11}\n", "pass", "compared", "max", "rms", "tolerance");
   for (const std::string& name : pass_order(report)) {
-    const PassComparison& pass = report.passes.at(name);
+    const pipeline::PassComparison& pass = report.passes.at(name);
     text += fmt::format("{:<20} {:>9} {:>11.3e} {:>11.3e} {:>11.3e}  {:<6} {}\n", name, pass.compared,
                         pass.max_abs, pass.rms, pass.tolerance, pass.ok ? "ok" : "FAILED", pass.unit);
   }
@@ -99,16 +100,16 @@ int run_verify(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  RenderRequest request;
+  pipeline::RenderRequest request;
   request.scene = arguments.scene.settings();
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
 
-  VerifyReport report;
+  pipeline::VerifyReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
-    report = verify(request, frame_progress(progress));
+    report = pipeline::verify(request, frame_progress(progress));
   }
   if (arguments.common.tables_wanted()) write_stdout(table(report));
   write_report(to_json(report), arguments.common.json());

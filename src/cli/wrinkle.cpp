@@ -14,17 +14,17 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/units.h"
+#include "bench/wrinkle_cost.h"
 #include "cli/arguments.h"
 #include "cli/cache_arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cloth/drape_examples.h"
+#include "cloth/drape_setup.h"
+#include "cloth/wrinkle_sequence.h"
 #include "config/frames.h"
 #include "config/suggest.h"
-#include "pipeline.h"
-#include "pipeline/drape_examples.h"
-#include "pipeline/drape_setup.h"
-#include "pipeline/wrinkle_cost.h"
-#include "pipeline/wrinkle_sequence.h"
+#include "mesh/subdivide.h"
 
 namespace plisse::cli {
 namespace {
@@ -118,11 +118,12 @@ double number_in(const std::string& option, const std::string& text, double low,
 
 void one_of(const std::string& option, const std::string& text, const std::vector<std::string>& allowed) {
   if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
-    throw Error(ExitCode::bad_input, fmt::format("{}: unknown '{}'{}; there are {}", option, text,
-                                                 did_you_mean(text, allowed), fmt::join(allowed, " and ")));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: unknown '{}'{}; there are {}", option, text,
+                            config::did_you_mean(text, allowed), fmt::join(allowed, " and ")));
 }
 
-WrinkleScene scene_of(const Arguments& arguments) {
+cloth::WrinkleScene scene_of(const Arguments& arguments) {
   if (arguments.input.empty() == arguments.example.empty())
     throw Error(
         ExitCode::bad_input,
@@ -132,23 +133,23 @@ WrinkleScene scene_of(const Arguments& arguments) {
     const int vertices =
         arguments.vertices.empty() ? 0 : whole_number("--vertices", arguments.vertices, 20, 1000000);
     const int seed = arguments.seed.empty() ? 1 : whole_number("--seed", arguments.seed, 0, 2147483647);
-    return base_of(drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed)),
-                   arguments.solved.folder());
+    return cloth::base_of(cloth::drape_example(arguments.example, vertices, static_cast<std::uint32_t>(seed)),
+                          arguments.solved.folder());
   }
   if (!arguments.vertices.empty() || !arguments.seed.empty())
     throw Error(ExitCode::bad_input, "--vertices and --seed are for --example: a file has its own mesh");
-  if (std::filesystem::path(arguments.input).extension() == ".ply") return read_base(arguments.input);
-  return base_of(load_drape(arguments.input), arguments.solved.folder());
+  if (std::filesystem::path(arguments.input).extension() == ".ply") return cloth::read_base(arguments.input);
+  return cloth::base_of(cloth::load_drape(arguments.input), arguments.solved.folder());
 }
 
 bool is_sequence(const Arguments& arguments) {
-  return !arguments.cache.empty() ||
-         (is_frame_pattern(arguments.input) && std::filesystem::path(arguments.input).extension() == ".ply");
+  return !arguments.cache.empty() || (config::is_frame_pattern(arguments.input) &&
+                                      std::filesystem::path(arguments.input).extension() == ".ply");
 }
 
 // But for the scene.
-WrinkleRequest request_of(const Arguments& arguments) {
-  WrinkleRequest request;
+cloth::WrinkleRequest request_of(const Arguments& arguments) {
+  cloth::WrinkleRequest request;
   one_of("--wrinkle-free", arguments.rule, {"paper", "authors"});
   request.rule =
       arguments.rule == "paper" ? wrinkle::WrinkleFreeRule::paper : wrinkle::WrinkleFreeRule::authors;
@@ -183,7 +184,7 @@ WrinkleRequest request_of(const Arguments& arguments) {
   return request;
 }
 
-ordered_json to_json(const WrinkleReport& report) {
+ordered_json to_json(const cloth::WrinkleReport& report) {
   const wrinkle::Field& field = report.field;
   ordered_json trace = ordered_json::array(), starts = ordered_json::array(), outputs = ordered_json::array();
   for (const wrinkle::FieldStart& start : field.starts)
@@ -194,7 +195,7 @@ ordered_json to_json(const WrinkleReport& report) {
                       {"converged", start.converged}});
   for (const wrinkle::SolveStep& step : field.trace)
     trace.push_back({{"iteration", step.iteration}, {"seconds", step.seconds}, {"energy_J", step.energy}});
-  for (const WrinkleOutput& output : report.outputs)
+  for (const cloth::WrinkleOutput& output : report.outputs)
     outputs.push_back({{"path", output.path.string()}, {"kind", output.kind}});
   return {{"vertices", report.vertices},
           {"faces", report.faces},
@@ -223,12 +224,12 @@ ordered_json to_json(const WrinkleReport& report) {
           {"trace", trace}};
 }
 
-ordered_json to_json(const WrinkleSequenceReport& report) {
+ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
   ordered_json outputs = ordered_json::array(), frames = ordered_json::array(),
                changes = ordered_json::array();
   for (const auto& output : report.outputs)
     outputs.push_back({{"path", output.path.string()}, {"kind", output.kind}, {"frame", output.frame}});
-  for (const WrinkleSequenceFrame& frame : report.frames) {
+  for (const cloth::WrinkleSequenceFrame& frame : report.frames) {
     const wrinkle::SequenceFrame& solved = frame.solved;
     if (solved.waves_before)
       changes.push_back({{"frame", frame.frame}, {"from", *solved.waves_before}, {"to", solved.waves}});
@@ -251,10 +252,10 @@ ordered_json to_json(const WrinkleSequenceReport& report) {
           {"wall_s", report.wall_s},           {"outputs", outputs}};
 }
 
-int run_sequence(const Arguments& arguments, WrinkleRequest each) {
+int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
   if (!arguments.example.empty() || !arguments.evaluate.empty())
     throw Error(ExitCode::bad_input, "--example and --evaluate are for one base surface, not for a sequence");
-  WrinkleSequenceRequest request;
+  cloth::WrinkleSequenceRequest request;
   request.each = std::move(each);
   request.bases = arguments.input;
   request.cache = arguments.cache;
@@ -262,13 +263,13 @@ int run_sequence(const Arguments& arguments, WrinkleRequest each) {
   request.fade = whole_number("--fade", arguments.fade, 0, 1000);
   request.hysteresis = number_in("--hysteresis", arguments.hysteresis, 1, 1e6);
   install_interrupt_handlers();
-  WrinkleSequenceReport report;
+  cloth::WrinkleSequenceReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
     request.progress = [&](int frame, int frames) { progress.update(frame, frames, "solved"); };
-    report = wrinkle_sequence(request);
+    report = cloth::wrinkle_sequence(request);
   }
-  for (const WrinkleSequenceFrame& frame : report.frames) {
+  for (const cloth::WrinkleSequenceFrame& frame : report.frames) {
     const wrinkle::SequenceFrame& solved = frame.solved;
     if (!solved.converged)
       log::notice(fmt::format("frame {}: NOT CONVERGED: {}", frame.frame, solved.reason));
@@ -285,7 +286,7 @@ int run_sequence(const Arguments& arguments, WrinkleRequest each) {
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
-int run_costs(Arguments arguments, const WrinkleRequest& request) {
+int run_costs(Arguments arguments, const cloth::WrinkleRequest& request) {
   const std::vector<int> sizes = whole_numbers("--cost", arguments.cost, 20, 1000000);
   if (arguments.example.empty() || request.output.extension() != ".svg")
     throw Error(ExitCode::bad_input,
@@ -301,24 +302,24 @@ int run_costs(Arguments arguments, const WrinkleRequest& request) {
                         "beside --cost, which solves anew at sizes of its own");
   check_writable(request.output);
   install_interrupt_handlers();
-  const auto costs = wrinkle_costs(
+  const auto costs = bench::wrinkle_costs(
       request,
       [&](int vertices) {
         arguments.vertices = std::to_string(vertices);
         return scene_of(arguments);
       },
       sizes,
-      [](const WrinkleCost& cost) {
+      [](const bench::WrinkleCost& cost) {
         log::notice(fmt::format("{} vertices: {:.4g} waves, {} steps, {:.3g} s ({:.3g} s of CPU time){}",
                                 cost.vertices, cost.waves, cost.iterations, cost.wall_s, cost.cpu_s,
                                 cost.converged ? "" : ", NOT CONVERGED"));
       });
   if (interrupted()) return 128 + signal_number();
-  plot_costs(request.output, arguments.example, costs);
+  bench::plot_costs(request.output, arguments.example, costs);
   log::notice(fmt::format("→ {}", request.output.string()));
   ordered_json json = {{"example", arguments.example}, {"costs", ordered_json::array()}};
   bool converged = true;
-  for (const WrinkleCost& cost : costs) {
+  for (const bench::WrinkleCost& cost : costs) {
     converged = converged && cost.converged;
     json["costs"].push_back({{"vertices", cost.vertices},
                              {"waves", cost.waves},
@@ -338,15 +339,15 @@ int run_costs(Arguments arguments, const WrinkleRequest& request) {
 
 int run_wrinkle(Arguments& arguments) {
   arguments.common.apply();
-  WrinkleRequest request = request_of(arguments);
+  cloth::WrinkleRequest request = request_of(arguments);
   if (!arguments.cost.empty()) return run_costs(arguments, request);
   if (is_sequence(arguments)) return run_sequence(arguments, std::move(request));
   if (!arguments.frames.empty())
     throw Error(ExitCode::bad_input, "--frames is for sequences: base_####.ply, or base.ply with --cache");
   request.scene = scene_of(arguments);
   if (!arguments.evaluate.empty()) {
-    const WrinkleEvaluation evaluation =
-        evaluate_field(request, arguments.evaluate[0], arguments.evaluate[1]);
+    const cloth::WrinkleEvaluation evaluation =
+        cloth::evaluate_field(request, arguments.evaluate[0], arguments.evaluate[1]);
     log::notice(fmt::format("{:.10g} J, scaled residual {:.3g}, largest curl {:.3g} rad", evaluation.energy,
                             evaluation.kkt, evaluation.curl_max));
     write_report(
@@ -354,7 +355,7 @@ int run_wrinkle(Arguments& arguments) {
         arguments.common.json());
     return 0;
   }
-  const WrinkleReport report = wrinkle_field(request);
+  const cloth::WrinkleReport report = cloth::wrinkle_field(request);
   const wrinkle::Field& field = report.field;
   const bool converged = field.real.converged && field.whole.converged;
   log::notice(
@@ -364,7 +365,8 @@ int run_wrinkle(Arguments& arguments) {
                   report.faces, field.waves, 1e3 * report.max_amplitude, field.whole.energy,
                   field.real.iterations, field.real.reason, report.wall_s));
   if (report.max_amplitude == 0) log::notice("nothing wrinkles: no face is compressed enough");
-  for (const WrinkleOutput& output : report.outputs) log::notice(fmt::format("→ {}", output.path.string()));
+  for (const cloth::WrinkleOutput& output : report.outputs)
+    log::notice(fmt::format("→ {}", output.path.string()));
   ordered_json json = to_json(report);
   json.update(reused_json(report.from_cache ? 1 : 0, report.saved_s));
   write_report(json, arguments.common.json());

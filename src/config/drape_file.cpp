@@ -13,7 +13,7 @@
 #include "config/kinds.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -423,4 +423,4 @@ std::string drape_reference_markdown() {
   return text;
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -13,7 +13,7 @@
 
 #include "sizing/fabric.h"
 
-namespace plisse {
+namespace plisse::config {
 
 // Metres, newtons, pascals; degrees.
 struct DrapeSettings {
@@ -82,4 +82,4 @@ DrapeSettings load_drape_settings(const std::filesystem::path& file);
 // The table of keys in docs/drape.md.
 std::string drape_reference_markdown();
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -11,7 +11,7 @@
 #include "base/units.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 std::vector<std::string> parts_of(const std::string& text) {
@@ -71,4 +71,4 @@ sizing::FabricRange parse_fabric_range(const std::string& text) {
   return {low.bending, high.bending, low.modulus, high.modulus, length(4), length(5)};
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

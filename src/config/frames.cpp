@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -203,4 +203,4 @@ void check_frame_paths(const std::string& pattern, std::span<const int> frames) 
   }
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

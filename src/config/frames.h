@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plisse {
+namespace plisse::config {
 
 // first, first + step, … ≤ last, counted from 1.
 struct FrameRange {
@@ -43,4 +43,4 @@ void check_frame_pattern(const std::string& pattern);
 // Throws Error(bad_input) where two of these frames would go to one file, saying what pattern would do.
 void check_frame_paths(const std::string& pattern, std::span<const int> frames);
 
-}  // namespace plisse
+}  // namespace plisse::config

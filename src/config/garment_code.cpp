@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 using glm::dvec2;
@@ -246,4 +246,4 @@ sizing::Garment parse_garment_code(std::string_view text, const std::filesystem:
   }
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -10,7 +10,7 @@
 
 #include "sizing/garment.h"
 
-namespace plisse {
+namespace plisse::config {
 
 // All panels of one fabric, which the files do not tell. A stitch joins the ends of its edges that lie closer
 // to each other as the panels are placed. Throws Error(bad_input) that names the place in the JSON, all that
@@ -18,4 +18,4 @@ namespace plisse {
 sizing::Garment parse_garment_code(std::string_view text, const std::filesystem::path& file,
                                    const sizing::Fabric& fabric);
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "config/keys.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 using config::Key;
@@ -173,4 +173,4 @@ void apply_options(SceneSettings& scene, const GivenOptions& options) {
   if (!wrong.empty()) throw Error(ExitCode::bad_input, wrong);
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

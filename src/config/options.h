@@ -7,7 +7,7 @@
 
 #include "config/settings.h"
 
-namespace plisse {
+namespace plisse::config {
 
 struct SceneOption {
   std::string name;   // "--wavelength"
@@ -22,4 +22,4 @@ const std::vector<SceneOption>& scene_options();
 using GivenOptions = std::vector<std::pair<std::string, std::vector<std::string>>>;
 void apply_options(SceneSettings& scene, const GivenOptions& options);
 
-}  // namespace plisse
+}  // namespace plisse::config

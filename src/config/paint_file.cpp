@@ -14,13 +14,13 @@
 #include "config/kinds.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 namespace fs = std::filesystem;
 using config::Complaints;
 using config::Problem;
-using Kind = PaintStroke::Kind;
+using StrokeKind = PaintStroke::Kind;
 using Mode = PaintStroke::Mode;
 
 const std::vector<std::string>& kind_names() {  // in the order of PaintStroke::Kind
@@ -28,12 +28,12 @@ const std::vector<std::string>& kind_names() {  // in the order of PaintStroke::
                                                  "colours", "painted", "random", "fill"};
   return names;
 }
-const std::vector<Kind> lines{Kind::screen, Kind::surface, Kind::uv};
-const std::vector<Kind> everywhere{};
+const std::vector<StrokeKind> lines{StrokeKind::screen, StrokeKind::surface, StrokeKind::uv};
+const std::vector<StrokeKind> everywhere{};
 
 // |p| stays below 1; erasing, smoothing and what was painted before may be taken whole.
 double most_strength(const PaintStroke& stroke) {
-  return stroke.mode == Mode::paint && stroke.kind != Kind::painted ? 0.99 : 1;
+  return stroke.mode == Mode::paint && stroke.kind != StrokeKind::painted ? 0.99 : 1;
 }
 
 template <typename Value>
@@ -64,7 +64,7 @@ glm::dvec3 vector_of(const toml::node& node) {
 }
 
 void set_points(PaintStroke& stroke, const toml::node& node, const fs::path&) {
-  const bool flat = stroke.kind != Kind::surface;
+  const bool flat = stroke.kind != StrokeKind::surface;
   for (const toml::node& item : array_of(node, "array of points")) {
     const toml::array& array = array_of(item, "point");
     const std::size_t wanted = flat ? 2 : 3;
@@ -95,24 +95,24 @@ void set_direction(PaintStroke& stroke, const toml::node& node, const fs::path&)
 
 constexpr config::Range lengths{1e-9, 1e9};
 
-struct Key {
+struct StrokeKey {
   std::string name;
-  std::vector<Kind> kinds;  // empty: all
+  std::vector<StrokeKind> kinds;  // empty: all
   std::string allowed, doc;
   std::function<void(PaintStroke&, const toml::node&, const fs::path& folder)> set;
 };
 
-const std::vector<Key>& stroke_keys() {
+const std::vector<StrokeKey>& stroke_keys() {
   using Stroke = PaintStroke;
   using Node = toml::node;
   using Path = fs::path;
-  static const std::vector<Key> keys = {
+  static const std::vector<StrokeKey> keys = {
       {"kind", everywhere, config::either(kind_names()), "Where the stroke is given; must be there.",
        [](Stroke& s, const Node& n, const Path&) {
-         config::Words<Kind> words;
+         config::Words<StrokeKind> words;
          for (std::size_t i = 0; i < kind_names().size(); ++i)
-           words.emplace_back(kind_names()[i], static_cast<Kind>(i));
-         s.kind = word_of<Kind>(n, words);
+           words.emplace_back(kind_names()[i], static_cast<StrokeKind>(i));
+         s.kind = word_of<StrokeKind>(n, words);
        }},
       {"mode", everywhere, "paint, erase or smooth",
        "Lay wrinkles (paint), take them away (erase), or even them out with their neighbours (smooth).",
@@ -150,7 +150,7 @@ const std::vector<Key>& stroke_keys() {
        "[u, v] (uv). One point is a dab.",
        set_points},
       {"vertices",
-       {Kind::surface},
+       {StrokeKind::surface},
        "an array of welded vertex numbers, from 0",
        "The line by vertices, in place of points.",
        [](Stroke& s, const Node& n, const Path&) {
@@ -161,7 +161,7 @@ const std::vector<Key>& stroke_keys() {
          if (s.vertices.empty()) throw Problem{"there is no vertex in it", ""};
        }},
       {"radius",
-       {Kind::screen, Kind::surface, Kind::uv, Kind::random},
+       {StrokeKind::screen, StrokeKind::surface, StrokeKind::uv, StrokeKind::random},
        config::range_text(lengths),
        "How far from the line it reaches: pixels (screen), a length (surface, random), units of uv. Must be "
        "there.",
@@ -169,7 +169,7 @@ const std::vector<Key>& stroke_keys() {
          s.radius = config::within(config::length_of(n), lengths);
        }},
       {"falloff",
-       {Kind::screen, Kind::surface, Kind::uv, Kind::random},
+       {StrokeKind::screen, StrokeKind::surface, StrokeKind::uv, StrokeKind::random},
        "smooth, linear or flat",
        "How it fades toward the radius.",
        [](Stroke& s, const Node& n, const Path&) {
@@ -177,38 +177,38 @@ const std::vector<Key>& stroke_keys() {
          s.falloff = word_of<F>(n, {{"smooth", F::smooth}, {"linear", F::linear}, {"flat", F::flat}});
        }},
       {"frame",
-       {Kind::screen},
+       {StrokeKind::screen},
        "a frame from 1",
        "The frame in whose picture the line is drawn (default 1).",
        [](Stroke& s, const Node& n, const Path&) {
          s.frame = static_cast<int>(config::within(static_cast<double>(config::whole_of(n)), {1, 1e9}));
        }},
       {"camera",
-       {Kind::screen},
+       {StrokeKind::screen},
        "a camera as --camera takes it",
        "Another camera than the scene's.",
        [](Stroke& s, const Node& n, const Path&) { s.camera = config::text_of(n); }},
       {"size",
-       {Kind::screen},
+       {StrokeKind::screen},
        "\"WxH\" or [W, H]",
        "The picture's size where it is not the scene's.",
        [](Stroke& s, const Node& n, const Path&) { std::tie(s.width, s.height) = config::size_of(n); }},
       {"file",
-       {Kind::image, Kind::colours, Kind::painted},
+       {StrokeKind::image, StrokeKind::colours, StrokeKind::painted},
        "an existing file",
        "A picture in uv whose brightness times alpha is the amount (image); a PLY with red, green, blue, "
        "whose "
        "brightness is the amount (colours); a PLY or PNG that plisse painted (painted).",
        [](Stroke& s, const Node& n, const Path& folder) { s.file = config::existing_file(n, folder); }},
       {"up",
-       {Kind::colours},
+       {StrokeKind::colours},
        "x, y or z",
        "The axis that points up in the file (default y; Blender writes z).",
        [](Stroke& s, const Node& n, const Path&) {
          s.up = word_of<std::string>(n, {{"x", "x"}, {"y", "y"}, {"z", "z"}});
        }},
       {"seed",
-       {Kind::random},
+       {StrokeKind::random},
        "0 … 4294967295",
        "Another seed, other wrinkles.",
        [](Stroke& s, const Node& n, const Path&) {
@@ -216,14 +216,14 @@ const std::vector<Key>& stroke_keys() {
              config::within(static_cast<double>(config::whole_of(n)), {0, 4294967295.0}));
        }},
       {"density",
-       {Kind::random},
+       {StrokeKind::random},
        "1e-09 … 1e+09",
        "Wrinkles per square metre. Must be there.",
        [](Stroke& s, const Node& n, const Path&) {
          s.density = config::within(config::number_of(n), lengths);
        }},
       {"length",
-       {Kind::random},
+       {StrokeKind::random},
        config::range_text(lengths),
        "Length of each fold. Must be there.",
        [](Stroke& s, const Node& n, const Path&) {
@@ -233,13 +233,13 @@ const std::vector<Key>& stroke_keys() {
   return keys;
 }
 
-bool fits(const Key& key, Kind kind) {
+bool fits(const StrokeKey& key, StrokeKind kind) {
   return key.kinds.empty() || std::find(key.kinds.begin(), key.kinds.end(), kind) != key.kinds.end();
 }
 
-std::vector<std::string> keys_of(Kind kind) {
+std::vector<std::string> keys_of(StrokeKind kind) {
   std::vector<std::string> names;
-  for (const Key& key : stroke_keys()) {
+  for (const StrokeKey& key : stroke_keys()) {
     if (fits(key, kind)) names.push_back(key.name);
   }
   return names;
@@ -265,43 +265,43 @@ void check_complete(const PaintStroke& stroke, const std::set<std::string>& give
   };
   using D = PaintDirection::Kind;
   switch (stroke.kind) {
-    case Kind::surface:
+    case StrokeKind::surface:
       if (given.count("points") == given.count("vertices"))
         complaints.add(at, "a stroke of kind surface needs either 'points' or 'vertices'");
       need("radius");
       break;
-    case Kind::screen:
-    case Kind::uv:
+    case StrokeKind::screen:
+    case StrokeKind::uv:
       need("points");
       need("radius");
       break;
-    case Kind::image:
-    case Kind::colours:
-    case Kind::painted:
+    case StrokeKind::image:
+    case StrokeKind::colours:
+    case StrokeKind::painted:
       need("file");
       break;
-    case Kind::random:
+    case StrokeKind::random:
       need("density");
       need("length");
       need("radius");
       break;
-    case Kind::fill:
+    case StrokeKind::fill:
       break;
   }
   const D direction = stroke.direction.kind;
   const bool line = std::find(lines.begin(), lines.end(), stroke.kind) != lines.end();
-  const bool needs_direction = stroke.mode == Mode::paint && stroke.kind != Kind::painted;
+  const bool needs_direction = stroke.mode == Mode::paint && stroke.kind != StrokeKind::painted;
   if (!needs_direction) {
     if (given.count("direction"))
       complaints.add(at, "key 'direction': has no effect on this stroke; take it out");
     return;
   }
-  if (direction == D::random && stroke.kind != Kind::random)
+  if (direction == D::random && stroke.kind != StrokeKind::random)
     complaints.add(at, "key 'direction': random is for strokes of kind random");
   if (line && stroke.points.size() + stroke.vertices.size() == 1 &&
       (direction == D::across || direction == D::along))
     complaints.add(at, "key 'direction': one point is no line; give an angle or a vector");
-  if (!line && stroke.kind != Kind::random && (direction == D::across || direction == D::along))
+  if (!line && stroke.kind != StrokeKind::random && (direction == D::across || direction == D::along))
     complaints.add(at, fmt::format("key 'direction': a stroke of kind {} needs an angle or a vector", kind));
 }
 
@@ -314,7 +314,7 @@ PaintStroke read_stroke(const toml::table& table, const fs::path& file, Complain
     return stroke;
   }
   // What the other keys mean depends on these two.
-  for (const Key& key : {stroke_keys()[0], stroke_keys()[1]}) {
+  for (const StrokeKey& key : {stroke_keys()[0], stroke_keys()[1]}) {
     const toml::node* node = table.get(key.name);
     if (!node) continue;
     try {
@@ -325,14 +325,14 @@ PaintStroke read_stroke(const toml::table& table, const fs::path& file, Complain
       return stroke;
     }
   }
-  if (stroke.kind == Kind::random) stroke.direction.kind = PaintDirection::Kind::random;
+  if (stroke.kind == StrokeKind::random) stroke.direction.kind = PaintDirection::Kind::random;
   if (most_strength(stroke) == 1) stroke.strength = 1;
   std::set<std::string> given;
   for (const auto& [toml_key, node] : table) {
     const std::string name(toml_key.str());
     if (name == "kind" || name == "mode") continue;
     const auto found = std::find_if(stroke_keys().begin(), stroke_keys().end(),
-                                    [&](const Key& key) { return key.name == name; });
+                                    [&](const StrokeKey& key) { return key.name == name; });
     if (found == stroke_keys().end() || !fits(*found, stroke.kind)) {
       const auto names = keys_of(stroke.kind);
       complaints.add(toml_key.source().begin,
@@ -430,9 +430,9 @@ PaintSettings load_paint(const fs::path& file) {
 std::vector<PaintKey> paint_keys() {
   std::vector<PaintKey> all;
   for (const RootKey& key : root_keys()) all.push_back({key.name, "file", key.allowed, key.doc});
-  for (const Key& key : stroke_keys()) {
+  for (const StrokeKey& key : stroke_keys()) {
     std::string kinds;
-    for (const Kind kind : key.kinds)
+    for (const StrokeKind kind : key.kinds)
       kinds += (kinds.empty() ? "" : ", ") + kind_names()[static_cast<std::size_t>(kind)];
     all.push_back({key.name, kinds.empty() ? "all" : kinds, key.allowed, key.doc});
   }
@@ -447,4 +447,4 @@ std::string paint_reference_markdown() {
   return text;
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

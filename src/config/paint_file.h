@@ -8,7 +8,7 @@
 
 #include "config/paint_settings.h"
 
-namespace plisse {
+namespace plisse::config {
 
 // Throws Error(bad_input) with all that is wrong with the file, one "file:line:column: …" a line. Paths in it
 // are relative to its folder.
@@ -22,4 +22,4 @@ struct PaintKey {
 std::vector<PaintKey> paint_keys();
 std::string paint_reference_markdown();  // the tables of docs/paint.md
 
-}  // namespace plisse
+}  // namespace plisse::config

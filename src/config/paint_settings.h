@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace plisse {
+namespace plisse::config {
 
 // The way in which cloth is gathered; folds run at right angles to it.
 struct PaintDirection {
@@ -61,4 +61,4 @@ struct PaintSettings {
   std::vector<PaintStroke> strokes;
 };
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -21,7 +21,7 @@
 #include "config/table_reader.h"
 #include "sizing/obj_lines.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -464,4 +464,4 @@ bool is_panel_file(const fs::path& file) {
   return root.contains("panel") && !root.contains("model") && !root.contains("drape");
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

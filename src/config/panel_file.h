@@ -8,7 +8,7 @@
 
 #include "sizing/garment.h"
 
-namespace plisse {
+namespace plisse::config {
 
 struct PanelFile {
   sizing::Garment garment;  // panels and the seams between them
@@ -32,4 +32,4 @@ void keep_pieces(PanelFile& file, const std::vector<std::string>& names);
 // TOML.
 bool is_panel_file(const std::filesystem::path& file);
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -16,7 +16,7 @@
 #include "config/keys.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -268,4 +268,4 @@ std::string scene_reference_markdown() {
   return text;
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -9,7 +9,7 @@
 
 #include "config/settings.h"
 
-namespace plisse {
+namespace plisse::config {
 
 // The defaults, with this model.
 SceneSettings bare_scene(const std::filesystem::path& model);
@@ -29,4 +29,4 @@ std::string scene_text(const std::string& model_path, const std::map<std::string
 // docs/scene.md.
 std::string scene_reference_markdown();
 
-}  // namespace plisse
+}  // namespace plisse::config

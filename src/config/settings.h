@@ -12,7 +12,7 @@
 
 #include "base/limits.h"
 
-namespace plisse {
+namespace plisse::config {
 
 enum class RelaxMode { descent, smooth };  // state over time, rule 3
 enum class Blend { linear, smooth };       // weights of a triangle's three waves (docs/passes.md)
@@ -125,4 +125,4 @@ struct SceneSettings {
   Limits limits;
 };
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace plisse {
+namespace plisse::config {
 namespace {
 
 char lower(char c) {
@@ -52,4 +52,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   return name.empty() ? "" : fmt::format(" (did you mean '{}'?)", name);
 }
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace plisse {
+namespace plisse::config {
 
 // The candidate nearest to `word` by edit distance (insert, delete, replace, swap neighbours; case is free),
 // if it is near enough to be what was meant: at most a third of the letters differ. Empty otherwise; the
@@ -15,4 +15,4 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 // " (did you mean 'nearest'?)", or nothing.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
-}  // namespace plisse
+}  // namespace plisse::config

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 
 namespace plisse {
 namespace {
@@ -165,6 +167,26 @@ Subdivision subdivide(const Surface& surface, const EdgeSegments& segments) {
   for (std::size_t v = 0; v < surface.render_vertices.size(); ++v)
     fine.vertices[v] = {surface.render_vertices[v].welded, normal_of[v]};
   return fine;
+}
+
+int halvings(double segments) {
+  int levels = 0;
+  while (levels < most_levels && std::exp2(levels) < segments) ++levels;
+  return levels;
+}
+
+int levels_for(double waves, std::size_t triangles, double most) {
+  const double segments = segments_per_wave * waves;
+  int levels = halvings(segments);
+  const int wanted = levels;
+  while (levels > 0 && static_cast<double>(triangles) * std::exp2(2 * levels) > most) --levels;
+  if (levels < wanted || std::exp2(levels) < segments) {
+    log::warn(fmt::format(
+        "the longest edge has {:.1f} waves; edges are halved {} times, which gives a wave {:.1f} segments "
+        "there in place of {:.0f}",
+        waves, levels, std::exp2(levels) * segments_per_wave / segments, segments_per_wave));
+  }
+  return levels;
 }
 
 }  // namespace plisse

@@ -11,6 +11,8 @@
 
 namespace plisse {
 
+constexpr int most_levels = 8;  // of halved edges: each edge in 256
+
 // What a small vertex shares with others: its place with all that meet there, its normal with those across a
 // seam of uv, but not across a hard edge.
 struct FineVertex {
@@ -74,5 +76,15 @@ struct DisplacedSurface {
   // other, 0…1.
   std::vector<glm::dvec4> relief;
 };
+
+// How often edges have to be halved so that each wave has `segments_per_wave` segments, for `waves` on the
+// edge that has most of them; fewer times where `triangles` would become more than `most_triangles` (a
+// warning says so). 0 without waves. Straight between eight, the middle of a crest is a thirteenth of its
+// height too low (1 − cos π/8); normals are exact at every vertex.
+constexpr double segments_per_wave = 8;
+int levels_for(double waves, std::size_t triangles, double most_triangles);
+
+// The least number of halvings that gives so many segments.
+int halvings(double segments);
 
 }  // namespace plisse

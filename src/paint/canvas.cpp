@@ -18,7 +18,7 @@ namespace {
 
 constexpr double longest = 0.99;
 
-void check_names(const Canvas& canvas, const PaintStroke& stroke) {
+void check_names(const Canvas& canvas, const config::PaintStroke& stroke) {
   std::set<std::string> known;
   for (const Part& part : canvas.surface.parts) known.insert({part.mesh, part.material_name});
   known.erase("");
@@ -27,7 +27,7 @@ void check_names(const Canvas& canvas, const PaintStroke& stroke) {
     for (const std::string& name : *list) {
       if (!known.count(name)) {
         fail(stroke, fmt::format("'{}' is neither a mesh nor a material of this model{}; there are: {}", name,
-                                 did_you_mean(name, names), fmt::join(names, ", ")));
+                                 config::did_you_mean(name, names), fmt::join(names, ", ")));
       }
     }
   }
@@ -52,22 +52,22 @@ glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias
   return glm::length(sum) * tangent_part(canvas, vertex, sum);
 }
 
-void apply(const Canvas& canvas, const PaintStroke& stroke, const std::vector<Touch>& touches,
+void apply(const Canvas& canvas, const config::PaintStroke& stroke, const std::vector<Touch>& touches,
            std::vector<glm::dvec3>& bias) {
   std::vector<glm::dvec3> before;  // what is evened out: elsewhere nothing looks at neighbours
-  if (stroke.mode == PaintStroke::Mode::smooth) before = bias;
+  if (stroke.mode == config::PaintStroke::Mode::smooth) before = bias;
   for (const Touch& touch : touches) {
     glm::dvec3& p = bias[touch.vertex];
     switch (stroke.mode) {
-      case PaintStroke::Mode::paint: {
+      case config::PaintStroke::Mode::paint: {
         const glm::dvec3 aim = stroke.strength * touch.vector;
         p = glm::mix(p, on_the_side_of(p, aim), touch.amount);
         break;
       }
-      case PaintStroke::Mode::erase:
+      case config::PaintStroke::Mode::erase:
         p *= 1 - stroke.strength * touch.amount;
         break;
-      case PaintStroke::Mode::smooth:
+      case config::PaintStroke::Mode::smooth:
         p = glm::mix(p, on_the_side_of(p, mean_around(canvas, before, touch.vertex)),
                      stroke.strength * touch.amount);
         break;
@@ -76,30 +76,30 @@ void apply(const Canvas& canvas, const PaintStroke& stroke, const std::vector<To
   }
 }
 
-std::vector<std::vector<Touch>> touched_as_its_kind(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<std::vector<Touch>> touched_as_its_kind(const Canvas& canvas, const config::PaintStroke& stroke) {
   switch (stroke.kind) {
-    case PaintStroke::Kind::screen:
+    case config::PaintStroke::Kind::screen:
       return {touched_on_screen(canvas, stroke)};
-    case PaintStroke::Kind::surface:
+    case config::PaintStroke::Kind::surface:
       return {touched_on_surface(canvas, stroke)};
-    case PaintStroke::Kind::uv:
+    case config::PaintStroke::Kind::uv:
       return {touched_in_uv(canvas, stroke)};
-    case PaintStroke::Kind::image:
+    case config::PaintStroke::Kind::image:
       return {touched_by_image(canvas, stroke)};
-    case PaintStroke::Kind::colours:
+    case config::PaintStroke::Kind::colours:
       return {touched_by_colours(canvas, stroke)};
-    case PaintStroke::Kind::painted:
+    case config::PaintStroke::Kind::painted:
       return {touched_by_painted(canvas, stroke)};
-    case PaintStroke::Kind::random:
+    case config::PaintStroke::Kind::random:
       return touched_at_random(canvas, stroke);
-    case PaintStroke::Kind::fill:
+    case config::PaintStroke::Kind::fill:
       break;
   }
   return {touched_by_fill(canvas, stroke)};
 }
 
 // What is wrong with a file that a stroke names is told with the stroke's place.
-std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<std::vector<Touch>> touched(const Canvas& canvas, const config::PaintStroke& stroke) {
   try {
     return touched_as_its_kind(canvas, stroke);
   } catch (const Error& error) {
@@ -110,9 +110,9 @@ std::vector<std::vector<Touch>> touched(const Canvas& canvas, const PaintStroke&
 
 }  // namespace
 
-std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<PaintStroke>& strokes) {
+std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes) {
   std::vector<glm::dvec3> bias(canvas.surface.vertex_count(), glm::dvec3(0));
-  for (const PaintStroke& stroke : strokes) {
+  for (const config::PaintStroke& stroke : strokes) {
     check_names(canvas, stroke);
     const std::vector<bool> allowed = allowed_vertices(canvas, stroke);
     bool any = false;
@@ -120,7 +120,7 @@ std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<PaintStrok
       std::erase_if(touches,
                     [&](const Touch& touch) { return !allowed[touch.vertex] || !(touch.amount > 0); });
       any = any || !touches.empty();
-      const int rounds = stroke.mode == PaintStroke::Mode::smooth ? stroke.rounds : 1;
+      const int rounds = stroke.mode == config::PaintStroke::Mode::smooth ? stroke.rounds : 1;
       for (int i = 0; i < rounds; ++i) apply(canvas, stroke, touches, bias);
     }
     if (!any)

@@ -22,12 +22,12 @@ struct Screen {
 struct Canvas {
   const Surface& surface;
   const RestFrames& rest;
-  std::function<Screen(const PaintStroke&)> look;  // what a stroke of kind screen is drawn on
+  std::function<Screen(const config::PaintStroke&)> look;  // what a stroke of kind screen is drawn on
 };
 
 // p of every welded vertex after all strokes in order, tangent to the rest pose, 0 where nothing was painted,
 // |p| ≤ .99. Throws Error(bad_input) with the stroke's place for one that misses the surface, names no mesh
 // or material, needs uv where there is none, or whose file does not fit.
-std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<PaintStroke>& strokes);
+std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes);
 
 }  // namespace plisse::paint

@@ -11,15 +11,15 @@
 
 namespace plisse::paint {
 
-void fail(const PaintStroke& stroke, const std::string& what) {
+void fail(const config::PaintStroke& stroke, const std::string& what) {
   throw Error(ExitCode::bad_input, fmt::format("{}: {}", stroke.place, what));
 }
 
-double falloff(PaintStroke::Falloff kind, double part) {
+double falloff(config::PaintStroke::Falloff kind, double part) {
   if (part > 1) return 0;
-  if (kind == PaintStroke::Falloff::flat) return 1;
+  if (kind == config::PaintStroke::Falloff::flat) return 1;
   const double s = 1 - part;
-  return kind == PaintStroke::Falloff::linear ? s : s * s * (3 - 2 * s);
+  return kind == config::PaintStroke::Falloff::linear ? s : s * s * (3 - 2 * s);
 }
 
 OnLine nearest_on_line(const std::vector<glm::dvec3>& points, const glm::dvec3& x) {
@@ -41,13 +41,13 @@ glm::dvec3 tangent_part(const Canvas& canvas, std::uint32_t vertex, const glm::d
   return glm::length(tangent) > 1e-6 * glm::length(vector) ? glm::normalize(tangent) : glm::dvec3(0);
 }
 
-std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const config::PaintStroke& stroke) {
   const std::size_t count = canvas.surface.vertex_count();
-  const PaintDirection& direction = stroke.direction;
+  const config::PaintDirection& direction = stroke.direction;
   std::vector<glm::dvec3> directions;
-  if (direction.kind == PaintDirection::Kind::vector) {
+  if (direction.kind == config::PaintDirection::Kind::vector) {
     for (std::uint32_t v = 0; v < count; ++v) directions.push_back(tangent_part(canvas, v, direction.vector));
-  } else if (direction.kind == PaintDirection::Kind::angle) {
+  } else if (direction.kind == config::PaintDirection::Kind::angle) {
     directions.assign(count, glm::dvec3(0));
     const double angle = glm::radians(direction.degrees);
     const auto frames = uv_frames(canvas.surface, canvas.rest);
@@ -64,7 +64,7 @@ std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const PaintStroke
   return directions;
 }
 
-bool allows(const PaintStroke& stroke, const Part& part) {
+bool allows(const config::PaintStroke& stroke, const Part& part) {
   const auto named = [&](const std::vector<std::string>& names) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
       return name == part.mesh || name == part.material_name;
@@ -73,7 +73,7 @@ bool allows(const PaintStroke& stroke, const Part& part) {
   return (stroke.only.empty() || named(stroke.only)) && !named(stroke.exclude);
 }
 
-std::vector<bool> allowed_vertices(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<bool> allowed_vertices(const Canvas& canvas, const config::PaintStroke& stroke) {
   const Surface& surface = canvas.surface;
   std::vector<bool> allowed(surface.vertex_count(), false);
   for (const Part& part : surface.parts) {

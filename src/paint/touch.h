@@ -19,21 +19,21 @@ struct Touch {
 };
 
 // One each kind; amounts and vectors are not masked yet.
-std::vector<Touch> touched_on_screen(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_on_surface(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_in_uv(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_by_image(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_by_colours(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_by_painted(const Canvas& canvas, const PaintStroke& stroke);
-std::vector<Touch> touched_by_fill(const Canvas& canvas, const PaintStroke& stroke);
+std::vector<Touch> touched_on_screen(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_on_surface(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_in_uv(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_by_image(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_by_painted(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_by_fill(const Canvas& canvas, const config::PaintStroke& stroke);
 // Random folds, one list each: they are blended one after the other.
-std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const PaintStroke& stroke);
+std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const config::PaintStroke& stroke);
 
 // Error(bad_input) at the stroke's place.
-[[noreturn]] void fail(const PaintStroke& stroke, const std::string& what);
+[[noreturn]] void fail(const config::PaintStroke& stroke, const std::string& what);
 
 // 1 on the line to 0 at the radius; part = distance/radius.
-double falloff(PaintStroke::Falloff kind, double part);
+double falloff(config::PaintStroke::Falloff kind, double part);
 
 // The nearest point of a polyline (or a single point).
 struct OnLine {
@@ -48,10 +48,10 @@ glm::dvec3 tangent_part(const Canvas& canvas, std::uint32_t vertex, const glm::d
 
 // The direction of a stroke with an angle or a vector at every welded vertex; empty for the other directions.
 // An angle needs uv: vertices without get 0, and where none has any the stroke fails.
-std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const PaintStroke& stroke);
+std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const config::PaintStroke& stroke);
 
 // Whether the stroke may touch each welded vertex, by its `only` and `exclude`.
-std::vector<bool> allowed_vertices(const Canvas& canvas, const PaintStroke& stroke);
-bool allows(const PaintStroke& stroke, const Part& part);
+std::vector<bool> allowed_vertices(const Canvas& canvas, const config::PaintStroke& stroke);
+bool allows(const config::PaintStroke& stroke, const Part& part);
 
 }  // namespace plisse::paint

@@ -131,7 +131,7 @@ glm::dvec3 at_rest(const Canvas& canvas, const Screen& screen, std::uint32_t v, 
 
 }  // namespace
 
-std::vector<Touch> touched_on_screen(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_on_screen(const Canvas& canvas, const config::PaintStroke& stroke) {
   const Surface& surface = canvas.surface;
   const Screen screen = canvas.look(stroke);
   std::vector<Pixel> pixels;
@@ -147,25 +147,25 @@ std::vector<Touch> touched_on_screen(const Canvas& canvas, const PaintStroke& st
   };
   std::vector<Touch> touches;
   const auto touch = [&](std::uint32_t v, double amount, const OnLine& place) {
-    const PaintDirection& direction = stroke.direction;
+    const config::PaintDirection& direction = stroke.direction;
     glm::dvec3 wanted(0);
     const double angle = glm::radians(direction.degrees);
     switch (direction.kind) {
-      case PaintDirection::Kind::across:
+      case config::PaintDirection::Kind::across:
         wanted = world({-place.tangent.y, place.tangent.x});
         break;
-      case PaintDirection::Kind::angle:
+      case config::PaintDirection::Kind::angle:
         wanted = world({std::cos(angle), -std::sin(angle)});
         break;
-      case PaintDirection::Kind::vector:
+      case config::PaintDirection::Kind::vector:
         break;
       default:
         wanted = world({place.tangent.x, place.tangent.y});
     }
-    const glm::dvec3 vector = direction.kind == PaintDirection::Kind::vector
+    const glm::dvec3 vector = direction.kind == config::PaintDirection::Kind::vector
                                   ? tangent_part(canvas, v, direction.vector)
                                   : at_rest(canvas, screen, v, wanted);
-    if (stroke.mode == PaintStroke::Mode::paint && vector == glm::dvec3(0)) return;
+    if (stroke.mode == config::PaintStroke::Mode::paint && vector == glm::dvec3(0)) return;
     touches.push_back({v, amount, vector});
   };
 

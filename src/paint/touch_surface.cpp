@@ -46,7 +46,7 @@ double longest_edge(const Surface& surface, std::uint32_t v) {
 // The vertices within the radius of a line that can be reached from the seeds without leaving it: the far
 // side of a sleeve is near as well, but not touched. Where not even a seed is within the radius, the seeds
 // themselves.
-std::vector<Touch> near_line(const Canvas& canvas, const PaintStroke& stroke,
+std::vector<Touch> near_line(const Canvas& canvas, const config::PaintStroke& stroke,
                              const std::vector<glm::dvec3>& line, const std::vector<std::uint32_t>& seeds,
                              const std::vector<glm::dvec3>& fixed) {
   const Surface& surface = canvas.surface;
@@ -57,11 +57,12 @@ std::vector<Touch> near_line(const Canvas& canvas, const PaintStroke& stroke,
       vector = fixed[v];
     } else if (place.tangent != glm::dvec3(0)) {
       const glm::dvec3 along = tangent_part(canvas, v, place.tangent);
-      vector = stroke.direction.kind == PaintDirection::Kind::along
+      vector = stroke.direction.kind == config::PaintDirection::Kind::along
                    ? along
                    : glm::cross(canvas.rest.normal[v], along);
     }
-    if (stroke.mode == PaintStroke::Mode::paint && vector == glm::dvec3(0)) return;  // no direction here
+    if (stroke.mode == config::PaintStroke::Mode::paint && vector == glm::dvec3(0))
+      return;  // no direction here
     touches.push_back({v, amount, vector});
   };
   std::unordered_set<std::uint32_t> seen(seeds.begin(), seeds.end());
@@ -108,7 +109,7 @@ class Random {
 
 }  // namespace
 
-std::vector<Touch> touched_on_surface(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_on_surface(const Canvas& canvas, const config::PaintStroke& stroke) {
   const Surface& surface = canvas.surface;
   std::vector<glm::dvec3> line = stroke.points;
   std::vector<std::uint32_t> seeds;
@@ -132,18 +133,18 @@ std::vector<Touch> touched_on_surface(const Canvas& canvas, const PaintStroke& s
   return near_line(canvas, stroke, line, seeds, fixed_directions(canvas, stroke));
 }
 
-std::vector<Touch> touched_by_fill(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_by_fill(const Canvas& canvas, const config::PaintStroke& stroke) {
   const auto directions = fixed_directions(canvas, stroke);
   std::vector<Touch> touches;
   for (std::uint32_t v = 0; v < canvas.surface.vertex_count(); ++v) {
     const glm::dvec3 vector = directions.empty() ? glm::dvec3(0) : directions[v];
-    if (stroke.mode == PaintStroke::Mode::paint && vector == glm::dvec3(0)) continue;
+    if (stroke.mode == config::PaintStroke::Mode::paint && vector == glm::dvec3(0)) continue;
     touches.push_back({v, 1, vector});
   }
   return touches;
 }
 
-std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const config::PaintStroke& stroke) {
   const Surface& surface = canvas.surface;
   std::vector<std::size_t> triangles;
   std::vector<double> areas{0};  // summed
@@ -168,8 +169,8 @@ std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const Pa
   const std::vector<glm::dvec3> fixed = fixed_directions(canvas, stroke);
   Random random(stroke.seed);
   std::vector<std::vector<Touch>> folds;
-  PaintStroke fold = stroke;
-  fold.direction.kind = PaintDirection::Kind::across;
+  config::PaintStroke fold = stroke;
+  fold.direction.kind = config::PaintDirection::Kind::across;
   while (folds.size() < static_cast<std::size_t>(wanted)) {
     const double at = random.below(areas.back());
     const auto found = std::upper_bound(areas.begin() + 1, areas.end() - 1, at) - areas.begin() - 1;

@@ -18,7 +18,7 @@
 namespace plisse::paint {
 namespace {
 
-std::vector<UvFrame> needed_uv_frames(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<UvFrame> needed_uv_frames(const Canvas& canvas, const config::PaintStroke& stroke) {
   auto frames = uv_frames(canvas.surface, canvas.rest);
   if (std::none_of(frames.begin(), frames.end(), [](const UvFrame& f) { return f.valid(); }))
     fail(stroke, "the stroke is given in uv, but the model has none; use one of kind surface or screen");
@@ -34,7 +34,7 @@ std::vector<Touch> strongest(const std::map<std::uint32_t, Touch>& found) {
 
 }  // namespace
 
-std::vector<Touch> touched_in_uv(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_in_uv(const Canvas& canvas, const config::PaintStroke& stroke) {
   const auto frames = needed_uv_frames(canvas, stroke);
   const auto fixed = fixed_directions(canvas, stroke);
   std::map<std::uint32_t, Touch> found;
@@ -50,18 +50,18 @@ std::vector<Touch> touched_in_uv(const Canvas& canvas, const PaintStroke& stroke
     } else {
       const glm::dvec3 along = tangent_part(
           canvas, vertex.welded, place.tangent.x * frames[i].per_u + place.tangent.y * frames[i].per_v);
-      vector = stroke.direction.kind == PaintDirection::Kind::along
+      vector = stroke.direction.kind == config::PaintDirection::Kind::along
                    ? along
                    : glm::cross(canvas.rest.normal[vertex.welded], along);
     }
-    if (stroke.mode == PaintStroke::Mode::paint && vector == glm::dvec3(0)) continue;
+    if (stroke.mode == config::PaintStroke::Mode::paint && vector == glm::dvec3(0)) continue;
     Touch& touch = found.try_emplace(vertex.welded, Touch{vertex.welded, 0, {}}).first->second;
     if (amount > touch.amount) touch = {vertex.welded, amount, vector};
   }
   return strongest(found);
 }
 
-std::vector<Touch> touched_by_image(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_by_image(const Canvas& canvas, const config::PaintStroke& stroke) {
   const auto frames = needed_uv_frames(canvas, stroke);
   const auto fixed = fixed_directions(canvas, stroke);
   const io::Image image = io::load_image(stroke.file);
@@ -78,7 +78,7 @@ std::vector<Touch> touched_by_image(const Canvas& canvas, const PaintStroke& str
   return strongest(found);
 }
 
-std::vector<Touch> touched_by_colours(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintStroke& stroke) {
   const std::string file = stroke.file.string();
   const io::Ply ply = io::read_ply(stroke.file);
   const io::PlyElement* vertex = ply.find("vertex");
@@ -122,7 +122,7 @@ std::vector<Touch> touched_by_colours(const Canvas& canvas, const PaintStroke& s
   return touches;
 }
 
-std::vector<Touch> touched_by_painted(const Canvas& canvas, const PaintStroke& stroke) {
+std::vector<Touch> touched_by_painted(const Canvas& canvas, const config::PaintStroke& stroke) {
   const auto bias = read_bias(stroke.file, canvas.surface, canvas.rest);
   std::vector<Touch> touches;
   for (std::uint32_t v = 0; v < bias.size(); ++v) touches.push_back({v, 1, bias[v]});

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "mesh/model_units.h"
 #include "mesh/subdivide.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
-#include "passes/model_units.h"
 
 namespace plisse::passes {
 

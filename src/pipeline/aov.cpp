@@ -71,7 +71,7 @@ std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names) {
     if (at == aov_names().end()) {
       throw Error(ExitCode::bad_input,
                   fmt::format("--aov {}: there is no such output{}; there are: {}", name,
-                              did_you_mean(name, aov_names()), fmt::join(aov_names(), ", ")));
+                              config::did_you_mean(name, aov_names()), fmt::join(aov_names(), ", ")));
     }
     aovs.push_back(static_cast<passes::Aov>(at - aov_names().begin()));
   }

@@ -1,4 +1,6 @@
 // plisse bake: the wrinkles of a frame as maps over the model's own uv, for the coarse mesh to wear.
+#include "pipeline/bake.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -17,13 +19,13 @@
 #include "io/png.h"
 #include "mesh/tangents.h"
 #include "mesh/uv_raster.h"
-#include "pipeline.h"
 #include "pipeline/outside.h"
 #include "pipeline/reference_scene.h"
+#include "pipeline/render.h"
 #include "pipeline/visit_frames.h"
 #include "reference/displacement.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 namespace {
 
 constexpr int widened = 16;  // texels: four levels of mip maps
@@ -62,8 +64,8 @@ class Baker {
   std::vector<Texel> at(const pipeline::WaveSnapshot& snapshot, const pipeline::Outside* outside) const {
     const auto triangles = pipeline::reference_triangles(reference_, snapshot);
     const std::vector<CornerTangent> tangents = mikktspace(corners(triangles));
-    const auto blend =
-        scene_.settings.shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
+    const auto blend = scene_.settings.shading.blend == config::Blend::smooth ? reference::Blend::smooth
+                                                                              : reference::Blend::linear;
     std::vector<Texel> texels(raster_.triangle.size());
     tbb::parallel_for(std::size_t{0}, texels.size(), [&](std::size_t i) {
       if (raster_.triangle[i] == UvRaster::none) return;
@@ -170,7 +172,8 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
   const double started = wall_seconds();
   check_request(request);
   pipeline::LoadedScene scene(request.scene);
-  const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
+  const auto frames =
+      config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   const Baker baker(scene, request.texture_size);
   std::optional<pipeline::Outside> outside;
   if (!request.outside.empty()) outside.emplace(scene, request.outside);
@@ -230,4 +233,4 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
   return report;
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

@@ -11,7 +11,7 @@
 #include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "pipeline.h"
+#include "mesh/subdivide.h"
 #include "reference/displacement.h"
 
 namespace plisse::pipeline {
@@ -19,9 +19,6 @@ namespace {
 
 using Eigen::Index;
 
-// Straight between them the middle of a crest is a thirteenth of its height too low (1 − cos π/8); normals
-// are exact at every vertex.
-constexpr double segments_per_wave = 8;
 constexpr double most_triangles = 4e6;
 
 // The most waves on each edge of the welded surface.
@@ -96,17 +93,10 @@ double most_pixels_a_metre(const LoadedScene& scene) {
   return 1.5 * most / scene.units.metres;
 }
 
-// The least number of halvings that gives so many segments.
-int halvings(double segments) {
-  int levels = 0;
-  while (levels < most_levels && std::exp2(levels) < segments) ++levels;
-  return levels;
-}
-
 }  // namespace
 
 int levels_for(const LoadedScene& scene) {
-  return levels_for(EdgeWaves(scene).most(), scene.surface().triangle_count(), most_triangles);
+  return plisse::levels_for(EdgeWaves(scene).most(), scene.surface().triangle_count(), most_triangles);
 }
 
 Subdivision split_as_needed(const LoadedScene& scene) {
@@ -147,27 +137,14 @@ Subdivision split_as_needed(const LoadedScene& scene) {
                    [&](std::uint32_t a, std::uint32_t b) { return 1 << std::max(wanted(a, b) - fewer, 0); });
 }
 
-int levels_for(double waves, std::size_t triangles, double most) {
-  const double segments = segments_per_wave * waves;
-  int levels = halvings(segments);
-  const int wanted = levels;
-  while (levels > 0 && static_cast<double>(triangles) * std::exp2(2 * levels) > most) --levels;
-  if (levels < wanted || std::exp2(levels) < segments) {
-    log::warn(fmt::format(
-        "the longest edge has {:.1f} waves; edges are halved {} times, which gives a wave {:.1f} segments "
-        "there in place of {:.0f}",
-        waves, levels, std::exp2(levels) * segments_per_wave / segments, segments_per_wave));
-  }
-  return levels;
-}
-
 Displacement::Displacement(const LoadedScene& scene, Subdivision mesh)
     : scene_(scene), reference_(scene), profile_(reference_profile(scene)), mesh_(std::move(mesh)) {}
 
 DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
   const auto triangles = reference_triangles(reference_, snapshot);
   const auto& shading = scene_.settings.shading;
-  const auto blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
+  const auto blend =
+      shading.blend == config::Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
   std::vector<reference::Displaced> displaced(mesh_.points.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
     Eigen::Matrix3d directions;

@@ -13,10 +13,6 @@ namespace plisse::pipeline {
 // frame; fewer where that made more than four million triangles (a warning says so). 0 without waves.
 int levels_for(const LoadedScene& scene);
 
-// The same from numbers: `waves` on the edge that has most of them, `triangles` before they are split, at
-// most so many after.
-int levels_for(double waves, std::size_t triangles, double most_triangles);
-
 // The scene's surface with every edge halved as often as the waves of its own need it, whatever frame, and no
 // further than to a pixel of the scene's pictures: cloth without waves stays as coarse as it is. All edges
 // are halved less often where there were more than four million triangles (a warning says so).

@@ -7,7 +7,7 @@
 
 #include "config/settings.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 
 struct Effort {
   int rounds = 1;    // of descent
@@ -15,8 +15,6 @@ struct Effort {
   int samples = 4;   // a pixel
   bool operator==(const Effort&) const = default;
 };
-
-namespace pipeline {
 
 // Gives up, one after the other, what is seen least: rounds beyond the first, every second and then every
 // fourth step of crush and relax, at last three of four samples; and takes it back as soon as it should fit.
@@ -55,5 +53,4 @@ class ErrorBudget {
   Effort effort_;
 };
 
-}  // namespace pipeline
-}  // namespace plisse
+}  // namespace plisse::pipeline

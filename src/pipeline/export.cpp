@@ -1,4 +1,6 @@
 // plisse export: a scene's frames as geometry, wrinkles and all.
+#include "pipeline/export.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,12 +11,13 @@
 #include "config/frames.h"
 #include "io/mesh_file.h"
 #include "io/point_cache.h"
-#include "pipeline.h"
 #include "pipeline/displace.h"
+#include "pipeline/look.h"
 #include "pipeline/outside.h"
+#include "pipeline/render.h"
 #include "pipeline/visit_frames.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 namespace {
 
 bool is_cache(const std::string& ending) {
@@ -31,9 +34,9 @@ void check_output(const std::string& pattern, const std::vector<int>& frames) {
                 fmt::format("-o {}: geometry is written as .ply, .obj or .glb, point caches as .pc2 or .mdd",
                             pattern));
   }
-  if (cache && is_frame_pattern(pattern))
+  if (cache && config::is_frame_pattern(pattern))
     throw Error(ExitCode::bad_input, fmt::format("-o {}: a point cache is one file for all frames", pattern));
-  if (!cache && frames.size() > 1 && !is_frame_pattern(pattern)) {
+  if (!cache && frames.size() > 1 && !config::is_frame_pattern(pattern)) {
     const auto better = path.parent_path() / (path.stem().string() + "_####" + path.extension().string());
     throw Error(ExitCode::bad_input,
                 fmt::format("-o {}: one file for {} frames; give it a place for the number: '{}'", pattern,
@@ -62,7 +65,7 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
     }
   });
   mesh.triangles = fine.triangles;
-  const auto draws = scene.draw_parts();
+  const auto draws = draw_parts(scene);
   for (std::size_t p = 0; p < draws.size(); ++p) {
     const Part& part = surface.parts[p];
     const auto [first, count] = fine.small_triangles(part.first_triangle, part.triangle_count);
@@ -77,7 +80,8 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();
   pipeline::LoadedScene scene(request.scene);
-  const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
+  const auto frames =
+      config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   check_output(request.output, frames);
   const int levels = request.levels ? *request.levels : pipeline::levels_for(scene);
   const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << levels));
@@ -101,7 +105,7 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
                                 DisplacedSurface displaced = displacement.at(surface);
                                 if (outside) outside->hold(frame, displacement.mesh(), displaced);
                                 for (glm::dvec3& x : displaced.positions) x = displacement.metres(x);
-                                const std::string path = numbered_path(request.output, frame);
+                                const std::string path = config::numbered_path(request.output, frame);
                                 if (cache) {
                                   cache->add(displaced.positions);
                                   return path;
@@ -120,4 +124,4 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
   return report;
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/colour.h"
+#include "pipeline/look.h"
 
 namespace plisse::pipeline {
 namespace {
@@ -22,7 +23,7 @@ void straighten_alpha(std::vector<std::uint8_t>& rgba) {
 }
 
 passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
-  passes::Look look = scene.look();
+  passes::Look look = look_of(scene);
   look.displaced = request.displace;
   return look;
 }
@@ -32,7 +33,7 @@ passes::Look look_of(const LoadedScene& scene, const RenderRequest& request) {
 FrameDrawer::Geometry::Geometry(const LoadedScene& scene, Subdivision split, const RenderRequest& request)
     : mesh(std::move(split)),
       buffers(scene.surface(), mesh),
-      pass(mesh, scene.profile, scene.settings.shading.blend == Blend::smooth, scene.look().field,
+      pass(mesh, scene.profile, scene.settings.shading.blend == config::Blend::smooth, look_of(scene).field,
            scene.settings.shading.cavity, request.shader_folder) {
   if (!request.outside.empty()) held.emplace(scene, mesh, request.outside);
 }
@@ -57,14 +58,14 @@ FrameDrawer::FrameDrawer(LoadedScene& scene, const RenderRequest& request, std::
       stepper_(scene, timer, request.shader_folder),
       geometry_(request.displace ? std::make_optional<Geometry>(scene, std::move(split.value()), request)
                                  : std::nullopt),
-      pass_(look_of(scene, request), scene.profile, parts(), scene.texture_levels(), request.shader_folder),
+      pass_(look_of(scene, request), scene.profile, parts(), texture_levels(scene), request.shader_folder),
       samples_(scene.settings.output.samples) {
   if (!aovs.empty()) aov_writer_.emplace(scene, pass_, aovs);
   if (aovs.empty() && request.state_file.empty()) stepper_.leave_out_masked();
 }
 
 std::vector<passes::DrawPart> FrameDrawer::parts() const {
-  auto parts = scene_.draw_parts();
+  auto parts = draw_parts(scene_);
   if (geometry_) {
     for (passes::DrawPart& part : parts) {
       const auto small = geometry_->mesh.small_triangles(part.first_triangle, part.triangle_count);
@@ -87,7 +88,7 @@ const gpu::Target& FrameDrawer::target() {
 void FrameDrawer::set_effort(const Effort& effort) {
   if (samples_ != effort.samples) picture_.reset();
   samples_ = effort.samples;
-  RelaxSettings relax = scene_.settings.relax;
+  config::RelaxSettings relax = scene_.settings.relax;
   relax.rounds = effort.rounds;
   relax.interval = effort.interval;
   stepper_.set_relax(relax);

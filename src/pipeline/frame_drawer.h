@@ -12,12 +12,12 @@
 #include "gpu/target.h"
 #include "passes/displacement.h"
 #include "passes/render.h"
-#include "pipeline.h"
 #include "pipeline/aov.h"
 #include "pipeline/displace.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/outside.h"
 #include "pipeline/picture.h"
+#include "pipeline/render.h"
 #include "pipeline/stepper.h"
 
 namespace plisse::pipeline {

@@ -9,11 +9,12 @@
 #include "base/hash.h"
 #include "config/settings.h"
 #include "io/import.h"
+#include "mesh/model_units.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "paint/canvas.h"
-#include "passes/model_units.h"
 #include "passes/render.h"
+#include "pipeline/frame_fields.h"
 #include "scene/animation.h"
 
 namespace plisse::pipeline {
@@ -21,29 +22,27 @@ namespace plisse::pipeline {
 class LoadedScene {
  public:
   // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
-  explicit LoadedScene(const SceneSettings& settings);
+  explicit LoadedScene(const config::SceneSettings& settings);
 
-  SceneSettings settings;  // wavelength and camera resolved
+  config::SceneSettings settings;  // wavelength and camera resolved
   io::Model model;
-  Animation animation;
+  scene::Animation animation;
   RestFrames rest;
   VertexWaves waves;
-  passes::ModelUnits units;
+  ModelUnits units;
   passes::Profile profile;
 
   const Surface& surface() const { return animation.surface(); }
   double wavelength() const { return settings.wrinkles.wavelength; }
-  passes::Look look() const;
-  std::vector<passes::DrawPart> draw_parts() const;
-  std::vector<std::vector<passes::TextureLevel>> texture_levels() const;
-  passes::View view(int frame) const { return view(frame, settings); }
+  // Camera and lights of a frame, in model units.
+  passes::View view(int frame) const;
   // p of every welded vertex after these strokes (paint/canvas.h).
-  std::vector<glm::dvec3> painted(const PaintSettings& paint) const;
+  std::vector<glm::dvec3> painted(const config::PaintSettings& paint) const;
 
   // Whether every frame has a field of its own; waves.field is then that of the step taken last, at first
   // frame 1's. A step that is taken is one whose pose may be asked for. Throws Error(bad_input) where the
   // field is none of that frame's surface.
-  bool has_field_a_frame() const { return !field_files_.empty(); }
+  bool has_field_a_frame() const { return !fields_.empty(); }
   void take_field(int step);
   // The carried field of all the clip, one call each; none where there is no such field.
   void visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const;
@@ -56,7 +55,7 @@ class LoadedScene {
   bool remembers_at(int step) const { return preroll_ > 0 && step == preroll_ + 1; }
   double lead_at(int step) const;
   // The pose of a step, asked in order; a step may be asked again until a later one is dropped.
-  const Pose& pose(int step);
+  const scene::Pose& pose(int step);
   void drop_poses_before(int step);
   // Decides the state after a step: settings of the passes, the surface, and every pose so far.
   Hash state_hash(int step);
@@ -64,26 +63,18 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
-  bool wrinkles(const Part& part) const;  // whether any vertex of it can have waves
   void take_bias();
   void take_field();        // the one for all frames
   void take_field_files();  // one a frame
-  std::vector<FieldTriangle> field_over(const std::vector<glm::dvec3>& positions, int frame) const;
-  // One a frame, or none; for text files, the OBJ that each belongs to; the part of each vertex that
-  // wrinkles.
-  std::vector<std::filesystem::path> field_files_, field_meshes_;
-  std::vector<double> field_mask_;
+  FrameFields fields_;      // one a frame, or none
   int field_frame_ = 0;
-  paint::Screen screen(const PaintStroke& stroke) const;
-  CameraSettings fitted_camera(const SceneSettings& given, const std::vector<glm::dvec3>& samples) const;
-  passes::View view(int frame, const SceneSettings& given) const;
+  paint::Screen screen(const config::PaintStroke& stroke) const;
   void extend(int step);
-  Hash constants_hash() const;
   int preroll_ = 0;
-  Animation::Bounds bounds_;
+  scene::Animation::Bounds bounds_;
   Hash state_base_;
-  std::string constants_;   // of the hash of a frame, once one was asked for
-  std::deque<Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
+  std::string constants_;          // of the hash of a frame, once one was asked for
+  std::deque<scene::Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
   int first_pose_ = 1;
   std::vector<Hash> chain_;  // after each step
 };

@@ -1,13 +1,15 @@
 // plisse measure: the waves of a mesh.
+#include "pipeline/measure.h"
+
+#include "io/import.h"
 #include "mesh/measure_waves.h"
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "pipeline.h"
 #include "scene/animation.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 namespace {
 
 struct Plain {
@@ -18,11 +20,11 @@ struct Plain {
 // Welded, in metres, as its file or first frame has it.
 Plain read_mesh(const std::filesystem::path& path, const io::ImportOptions& options) {
   const io::Model model = io::import_model(path, options);
-  AnimationChoice choice;
+  scene::AnimationChoice choice;
   choice.limits = options.limits;
-  Animation animation(model, choice);
+  scene::Animation animation(model, choice);
   const Surface& surface = animation.surface();
-  Plain mesh{posed(surface, animation.pose(1)), {}};
+  Plain mesh{scene::posed(surface, animation.pose(1)), {}};
   for (const std::uint32_t v : surface.triangles) mesh.triangles.push_back(surface.render_vertices[v].welded);
   return mesh;
 }
@@ -36,4 +38,4 @@ MeshSpectrum measure(const MeasureRequest& request) {
   return measure_waves(height_over_base(mesh.positions, mesh.triangles, base.positions, base.triangles));
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

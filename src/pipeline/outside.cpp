@@ -13,7 +13,7 @@
 #include "config/frames.h"
 #include "config/suggest.h"
 #include "io/import.h"
-#include "pipeline.h"
+#include "scene/load_model.h"
 
 namespace plisse::pipeline {
 namespace {
@@ -50,17 +50,17 @@ Outside::Outside(const LoadedScene& scene, const std::string& body) : scene_(sce
   known.erase("");
   const std::vector<std::string> names(known.begin(), known.end());
   std::error_code ignored;
-  if (!std::filesystem::exists(body, ignored) && !names_many_files(body)) {
+  if (!std::filesystem::exists(body, ignored) && !config::names_many_files(body)) {
     throw Error(
         ExitCode::bad_input,
         fmt::format("--outside {}: there is no such file, and the model has no such mesh or material{}; "
                     "it has: {}",
-                    body, did_you_mean(body, names), fmt::join(names, ", ")));
+                    body, config::did_you_mean(body, names), fmt::join(names, ", ")));
   }
-  io::ImportOptions options = import_options(scene.settings);
+  io::ImportOptions options = scene::import_options(scene.settings);
   options.cache.clear();
-  const Timeline& clip = scene.animation.timeline();
-  AnimationChoice choice;
+  const scene::Timeline& clip = scene.animation.timeline();
+  scene::AnimationChoice choice;
   choice.frames_per_second = clip.frames_per_second;
   choice.limits = scene.settings.limits;
   model_ = io::import_model(body, options);
@@ -77,7 +77,7 @@ shell::TriangleBody Outside::body(int frame, const std::vector<glm::dvec3>& base
   const Surface& surface = animation_ ? animation_->surface() : scene_.surface();
   std::vector<glm::dvec3> positions = base;  // begins with the welded vertices, which are all a part needs
   if (animation_) {
-    positions = posed(surface, animation_->pose(std::min(frame, animation_->timeline().frame_count)));
+    positions = scene::posed(surface, animation_->pose(std::min(frame, animation_->timeline().frame_count)));
     for (glm::dvec3& x : positions) x = scene_.units.world(x);
   }
   // Only the vertices that the body has: another part's are no corners of it.

@@ -42,7 +42,7 @@ class Outside {
   std::string name_;
   std::vector<std::size_t> parts_;  // of the scene's surface; or else
   io::Model model_;
-  std::optional<Animation> animation_;
+  std::optional<scene::Animation> animation_;
   std::optional<shell::TriangleBody> body_;  // of the last frame
 };
 

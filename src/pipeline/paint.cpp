@@ -1,4 +1,6 @@
 // plisse paint: the strokes of a paint file as vertices, as a uv texture and as a picture.
+#include "pipeline/paint.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,24 +9,27 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "config/paint_settings.h"
 #include "config/scene_file.h"
+#include "config/settings.h"
 #include "io/png.h"
 #include "paint/bias_file.h"
-#include "pipeline.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/render.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 
 PaintReport paint_wrinkles(const PaintRequest& request) {
   const double started = wall_seconds();
-  const PaintSettings& paint = request.paint;
+  const config::PaintSettings& paint = request.paint;
   if (paint.scene.empty()) {
     throw Error(
         ExitCode::bad_input,
         fmt::format("{}: key 'scene': missing; name the scene or model to paint on", paint.file.string()));
   }
   const bool is_scene = paint.scene.extension() == ".toml" || paint.scene.extension() == ".TOML";
-  SceneSettings settings = is_scene ? load_scene(paint.scene) : bare_scene(paint.scene);
+  config::SceneSettings settings =
+      is_scene ? config::load_scene(paint.scene) : config::bare_scene(paint.scene);
   settings.bias = {};
   const pipeline::LoadedScene scene(settings);
   const auto bias = scene.painted(paint);
@@ -65,4 +70,4 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
   return report;
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

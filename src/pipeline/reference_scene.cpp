@@ -1,4 +1,5 @@
 #include "pipeline/reference_scene.h"
+#include "pipeline/look.h"
 
 #include <numbers>
 
@@ -71,7 +72,7 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   }
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
-  crush.smooth = settings.relax.mode == RelaxMode::smooth;
+  crush.smooth = settings.relax.mode == config::RelaxMode::smooth;
   relax.smooth = crush.smooth;
   relax.descent_rounds = settings.relax.rounds;
   relax.epsilon = settings.relax.epsilon;
@@ -79,21 +80,21 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   relax.smoothing_rounds = settings.relax.smoothing_rounds;
 }
 
-reference::SkinPose ReferenceScene::pose(const Pose& pose) const {
+reference::SkinPose ReferenceScene::pose(const scene::Pose& pose) const {
   reference::SkinPose result;
   for (const auto& m : pose.palette) result.palette.push_back(to_eigen(scene.units.matrix(m)));
   result.morph_weights = pose.morph_weights;
   return result;
 }
 
-Eigen::Matrix3Xd ReferenceScene::positions(const Pose& given) const {
+Eigen::Matrix3Xd ReferenceScene::positions(const scene::Pose& given) const {
   if (!given.cache.empty()) {
     return columns(given.cache.size(), [&](std::size_t v) { return scene.units.world(given.cache[v]); });
   }
   return reference::skin_positions(skin, pose(given));
 }
 
-reference::Frames ReferenceScene::frames(const Pose& given, const Eigen::Matrix3Xd& positions) const {
+reference::Frames ReferenceScene::frames(const scene::Pose& given, const Eigen::Matrix3Xd& positions) const {
   std::vector<Eigen::Matrix3d> linear(skin.influences.size(), Eigen::Matrix3d::Identity());
   if (given.cache.empty()) {
     const auto at = pose(given);
@@ -147,7 +148,7 @@ WaveSnapshot read_snapshot(const passes::SurfaceBuffers& surface) {
 
 std::vector<reference::Texture> reference_textures(const LoadedScene& scene) {
   std::vector<reference::Texture> textures;
-  for (const auto& levels : scene.texture_levels()) {
+  for (const auto& levels : texture_levels(scene)) {
     reference::Texture texture;
     for (const auto& level : levels) {
       reference::TextureLevel converted{level.width, level.height, {}};
@@ -227,7 +228,7 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
                                const passes::View& view, const std::vector<reference::Texture>& textures) {
   reference::Scene result;
   result.triangles = reference_triangles(scene, snapshot);
-  const auto parts = scene.scene.draw_parts();
+  const auto parts = draw_parts(scene.scene);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& part = parts[p];
     reference::Material material;
@@ -252,9 +253,10 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
   result.lighting.ambient = to_eigen(view.ambient);
   result.lighting.up = to_eigen(view.up);
   const auto& shading = scene.scene.settings.shading;
-  result.shading.blend = shading.blend == Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
+  result.shading.blend =
+      shading.blend == config::Blend::smooth ? reference::Blend::smooth : reference::Blend::linear;
   result.shading.gradient =
-      shading.gradient == Gradient::full ? reference::Gradient::full : reference::Gradient::paper;
+      shading.gradient == config::Gradient::full ? reference::Gradient::full : reference::Gradient::paper;
   result.shading.roughness = shading.roughness;
   result.shading.sheen = shading.sheen;
   result.shading.cavity = shading.cavity;
@@ -271,7 +273,7 @@ ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
 
-void ReferenceChain::step(int step, const Pose& pose, bool with_crush,
+void ReferenceChain::step(int step, const scene::Pose& pose, bool with_crush,
                           const std::vector<Eigen::Vector2d>& first_directions) {
   first_directions_ = first_directions;
   const double share = scene_.scene.lead_at(step);

@@ -17,9 +17,9 @@ namespace plisse::pipeline {
 // Everything in model units, as in the passes.
 struct ReferenceScene {
   explicit ReferenceScene(const LoadedScene& scene);
-  reference::SkinPose pose(const Pose& pose) const;    // palette and morph weights
-  Eigen::Matrix3Xd positions(const Pose& pose) const;  // x', from bones or cache
-  reference::Frames frames(const Pose& pose, const Eigen::Matrix3Xd& positions) const;
+  reference::SkinPose pose(const scene::Pose& pose) const;    // palette and morph weights
+  Eigen::Matrix3Xd positions(const scene::Pose& pose) const;  // x', from bones or cache
+  reference::Frames frames(const scene::Pose& pose, const Eigen::Matrix3Xd& positions) const;
 
   const LoadedScene& scene;
   reference::Topology topology;
@@ -65,7 +65,7 @@ class ReferenceChain {
   // `step` decides where a loop's phases are remembered and led (LoadedScene). `first_directions`: k of the
   // run to compare with, an entry a vertex; a direction taken for the first time has the sign of that one,
   // since its sign is free and the phases of the onset hang on it.
-  void step(int step, const Pose& pose, bool with_crush,
+  void step(int step, const scene::Pose& pose, bool with_crush,
             const std::vector<Eigen::Vector2d>& first_directions);
   const WaveSnapshot& now() const { return now_; }
 
@@ -74,7 +74,7 @@ class ReferenceChain {
   WaveSnapshot now_;
   void crush_and_relax(bool leads);
   void lead(reference::Status which, double share);
-  std::optional<Pose> last_, crushed_;
+  std::optional<scene::Pose> last_, crushed_;
   std::vector<Eigen::Vector2d> first_directions_;
   WaveSnapshot remembered_;
 };

@@ -1,5 +1,7 @@
 // The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads
 // that encode and write while the next one is drawn.
+#include "pipeline/render.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,17 +21,17 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "config/frames.h"
+#include "config/settings.h"
 #include "gpu/shader_source.h"
 #include "io/png.h"
 #include "io/sequence.h"
-#include "pipeline.h"
 #include "pipeline/aov.h"
 #include "pipeline/displace.h"
 #include "pipeline/frame_drawer.h"
 #include "pipeline/frame_writer.h"
 #include "pipeline/loaded_scene.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 namespace {
 
 // What draws: driver and shaders.
@@ -73,7 +75,7 @@ ExitCode outcome(const std::vector<FrameReport>& frames) {
 // --budget or --max-error at work, or neither.
 class Governor {
  public:
-  Governor(const RenderRequest& request, const SceneSettings& settings) {
+  Governor(const RenderRequest& request, const config::SceneSettings& settings) {
     const Effort wanted{settings.relax.rounds, settings.relax.interval, settings.output.samples};
     if (request.budget_ms > 0) time_.emplace(wanted, request.budget_ms);
     if (request.max_error > 0) error_.emplace(wanted, request.max_error);
@@ -161,7 +163,7 @@ void check_budget(const RenderRequest& request) {
 std::string body_fingerprint(const std::string& body) {
   std::error_code ignored;
   std::vector<std::filesystem::path> files;
-  if (names_many_files(body)) files = io::sequence_files(body);
+  if (config::names_many_files(body)) files = io::sequence_files(body);
   if (std::filesystem::is_regular_file(body, ignored)) files = {body};
   Hash hash;
   hash.add(body);
@@ -199,8 +201,9 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   const auto loaded = loading.get();  // what is wrong with the scene is told first
   pipeline::LoadedScene& scene = *loaded;
   const auto& output = scene.settings.output;
-  const auto frames = select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
-  check_frame_paths(output.path, frames);
+  const auto frames =
+      config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
+  config::check_frame_paths(output.path, frames);
   const auto aovs = pipeline::parse_aovs(request.aovs);
   check_aovs(aovs, request.displace);
   check_budget(request);
@@ -260,7 +263,7 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
       FrameReport& entry = report.frames[i];
       entry.frame = frame;
       entry.time_s = scene.animation.timeline().time(frame);
-      entry.path = frame_path(output.path, frame);
+      entry.path = config::frame_path(output.path, frame);
       std::string hash = governor.active() ? std::string() : scene.frame_hash(frame, driver);
       if (request.displace && !hash.empty())
         hash = Hash().add(hash).add("displaced").add(split_hash).add(body_hash).hex();
@@ -339,4 +342,4 @@ RenderReport render(const RenderRequest& request, const FrameCallback& on_frame)
   return report;
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

@@ -15,11 +15,11 @@
 
 namespace plisse::pipeline {
 
-passes::RelaxOptions relax_options(const RelaxSettings& settings) {
+passes::RelaxOptions relax_options(const config::RelaxSettings& settings) {
   passes::RelaxOptions options;
   options.rounds = settings.rounds;
   options.epsilon = settings.epsilon;
-  options.onset = settings.mode == RelaxMode::smooth;
+  options.onset = settings.mode == config::RelaxMode::smooth;
   options.onset_rounds = settings.onset_rounds;
   options.smoothing_rounds = settings.smoothing_rounds;
   return options;
@@ -40,7 +40,7 @@ bool Stepper::crush_runs_at(int step) const {
   return (scene_.frame_of_step(step) - 1) % settings_.interval == 0;
 }
 
-void Stepper::skin(const Pose& pose) {
+void Stepper::skin(const scene::Pose& pose) {
   timer_.begin("skin");
   if (!pose.cache.empty()) {
     std::vector<glm::vec4> positions;
@@ -58,7 +58,7 @@ void Stepper::skin(const Pose& pose) {
 
 void Stepper::crush() {
   timer_.begin("crush");
-  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, settings_.mode == RelaxMode::descent);
+  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, settings_.mode == config::RelaxMode::descent);
   timer_.end();
 }
 
@@ -104,7 +104,7 @@ bool Stepper::advance_to(int step) {
       log::notice(fmt::format("stepping through the frames before: {} of {}", step_, step));
       told = now;
     }
-    const Pose& pose = scene_.pose(step_ + 1);
+    const scene::Pose& pose = scene_.pose(step_ + 1);
     ++step_;
     const double share = scene_.lead_at(step_);
     const bool moved = !last_pose_ || *last_pose_ != pose;

@@ -16,7 +16,7 @@
 
 namespace plisse::pipeline {
 
-passes::RelaxOptions relax_options(const RelaxSettings& settings);
+passes::RelaxOptions relax_options(const config::RelaxSettings& settings);
 
 class Stepper {
  public:
@@ -37,7 +37,7 @@ class Stepper {
   void leave_out_masked();
   int masked_steps() const { return masked_steps_; }
   // From now on, in place of the scene's own rounds and interval: frames then depend on when this was called.
-  void set_relax(const RelaxSettings& relax) { settings_ = relax; }
+  void set_relax(const config::RelaxSettings& relax) { settings_ = relax; }
   // Whether the last step ended with a round of descent; and by what (root mean square over set vertices,
   // radians) that moved the phases. Reads them back.
   bool descended() const { return descended_; }
@@ -59,12 +59,12 @@ class Stepper {
   bool read_state(const std::filesystem::path& path, const Hash& driver, int last_usable_step);
 
  private:
-  void skin(const Pose& pose);
+  void skin(const scene::Pose& pose);
   void crush();
   void relax();
   void observe(Stage stage) const;
   LoadedScene& scene_;
-  RelaxSettings settings_;
+  config::RelaxSettings settings_;
   gpu::StageTimer& timer_;
   passes::SurfaceBuffers surface_;
   passes::SkinPass skin_;
@@ -73,7 +73,7 @@ class Stepper {
   gpu::Buffer remembered_phases_,
       remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
-  std::optional<Pose> last_pose_, crushed_pose_;
+  std::optional<scene::Pose> last_pose_, crushed_pose_;
   bool unchanged_ = false, descended_ = false;
   int unchanged_steps_ = 0, idle_relaxations_ = 0, masked_steps_ = 0;
   bool all_masked_ = false;  // and to be left out

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "pipeline.h"
+#include "pipeline/verify.h"
 
 namespace plisse::pipeline {
 

@@ -1,6 +1,8 @@
 // Shader against reference, pass by pass: each pass of the reference is fed what the GPU's own pass was fed,
 // so that the error of one is not charged to the next (docs/contract.md, "State over time", rule 6). The
 // drift of the whole chain is reported apart.
+#include "pipeline/verify.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,13 +10,14 @@
 
 #include "base/interrupt.h"
 #include "config/frames.h"
-#include "pipeline.h"
+#include "config/settings.h"
+#include "pipeline/render.h"
 #include "pipeline/stepper.h"
 #include "pipeline/verify_displacement.h"
 #include "pipeline/verify_pictures.h"
 #include "pipeline/verify_waves.h"
 
-namespace plisse {
+namespace plisse::pipeline {
 namespace {
 
 constexpr double flip_tolerance = 0.02;
@@ -27,7 +30,7 @@ constexpr double chain_tolerance = 0.2;  // rad, root mean square
 constexpr double silhouette_limit = 0.5;
 constexpr int largest_side = 640;  // of the pictures compared: the reference is no renderer for 4k
 
-SceneSettings small(SceneSettings settings) {
+config::SceneSettings small(config::SceneSettings settings) {
   auto& output = settings.output;
   const double scale =
       static_cast<double>(largest_side) / std::max({output.width, output.height, largest_side});
@@ -82,7 +85,8 @@ class Verifier {
  private:
   std::vector<int> picked() const {
     const int count = scene_.animation.timeline().frame_count;
-    if (!scene_.settings.model.frames.empty()) return select_frames(scene_.settings.model.frames, count);
+    if (!scene_.settings.model.frames.empty())
+      return config::select_frames(scene_.settings.model.frames, count);
     std::vector<int> frames;
     const int wanted = std::min(8, count);
     for (int i = 0; i < wanted; ++i) frames.push_back(1 + (wanted > 1 ? i * (count - 1) / (wanted - 1) : 0));
@@ -154,4 +158,4 @@ VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame)
   return Verifier(request).run(on_frame);
 }
 
-}  // namespace plisse
+}  // namespace plisse::pipeline

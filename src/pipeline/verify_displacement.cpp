@@ -1,4 +1,5 @@
 #include "pipeline/verify_displacement.h"
+#include "pipeline/look.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +39,8 @@ DisplacementComparison::DisplacementComparison(const LoadedScene& scene, const s
     : scene_(scene),
       displacement_(scene, subdivide(scene.surface(), 1 << levels_compared(scene.surface()))),
       buffers_(scene.surface(), displacement_.mesh()),
-      pass_(displacement_.mesh(), scene.profile, scene.settings.shading.blend == Blend::smooth,
-            scene.look().field, scene.settings.shading.cavity, shader_folder),
+      pass_(displacement_.mesh(), scene.profile, scene.settings.shading.blend == config::Blend::smooth,
+            look_of(scene).field, scene.settings.shading.cavity, shader_folder),
       place_(place_tolerance, "of the bounding box"),
       relief_(relief_tolerance, "of the amplitude", fraction),
       normal_(normal_tolerance, "of a unit vector", fraction) {}

@@ -1,4 +1,5 @@
 #include "pipeline/verify_pictures.h"
+#include "pipeline/look.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ PictureComparison::PictureComparison(const LoadedScene& scene, const ReferenceSc
                                      const std::string& shader_folder)
     : scene_(scene),
       reference_(reference),
-      render_(look(), scene.profile, scene.draw_parts(), scene.texture_levels(), shader_folder),
+      render_(look(), scene.profile, draw_parts(scene), texture_levels(scene), shader_folder),
       target_(scene.settings.output.width, scene.settings.output.height, 1, gpu::Target::Format::srgb8),
       textures_(reference_textures(scene)),
       image_(image_tolerance, "of 255", image_fraction),
@@ -66,7 +67,7 @@ PictureComparison::PictureComparison(const LoadedScene& scene, const ReferenceSc
       ground_(ground_tolerance, "of the light", ground_fraction) {}
 
 passes::Look PictureComparison::look() const {
-  passes::Look result = scene_.look();
+  passes::Look result = look_of(scene_);
   result.wireframe = false;  // lines over the surface are no part of the pass
   return result;
 }

@@ -46,7 +46,7 @@ class WaveComparison {
   ReferenceChain chain_;
   passes::RelaxPass scratch_relax_;
 
-  Pose pose_;
+  scene::Pose pose_;
   bool looking_ = false;
   double share_ = 0;                      // of the way that this step leads a loop's phases
   WaveSnapshot before_, crushed_, last_;  // before the step; after crush; at the last stage seen

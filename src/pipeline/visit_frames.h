@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "passes/surface_buffers.h"
-#include "pipeline.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/render.h"
 
 namespace plisse::pipeline {
 

@@ -23,7 +23,7 @@
 #include "scene/instances.h"
 #include "scene/rig.h"
 
-namespace plisse {
+namespace plisse::scene {
 namespace {
 
 bool finite(double value) {
@@ -57,7 +57,7 @@ int choose_clip(const io::Model& model, const std::string& choice) {
   for (std::size_t i = 0; i < names.size(); ++i) listed.push_back(fmt::format("{} '{}'", i, names[i]));
   throw Error(ExitCode::bad_input,
               fmt::format("{}: no clip '{}'{}; it has, by index or name: {}", model.path.string(), choice,
-                          did_you_mean(choice, names), fmt::join(listed, ", ")));
+                          config::did_you_mean(choice, names), fmt::join(listed, ", ")));
 }
 
 Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames_per_second) {
@@ -457,4 +457,4 @@ std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::siz
   return result;
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

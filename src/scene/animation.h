@@ -10,7 +10,7 @@
 #include "io/model.h"
 #include "mesh/surface.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 // Everything about one moment that the skin pass needs. Two equal poses compare equal bit for bit.
 struct Pose {
@@ -69,4 +69,4 @@ class Animation {
 // stride of n gives every n-th vertex only.
 std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::size_t stride = 1);
 
-}  // namespace plisse
+}  // namespace plisse::scene

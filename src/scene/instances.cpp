@@ -18,7 +18,7 @@
 
 #include "base/log.h"
 
-namespace plisse {
+namespace plisse::scene {
 namespace {
 
 // A matrix whose volume is this small against its size is taken as singular.
@@ -304,4 +304,4 @@ Instances gather_instances(const io::Model& model, const Rig& rig, const std::ve
   return Gatherer(model, rig, times).run();
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

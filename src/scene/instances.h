@@ -11,7 +11,7 @@
 #include "mesh/weld.h"
 #include "scene/rig.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 // One matrix of Pose::palette: world(node)·right, or the identity where node is −1.
 struct PaletteEntry {
@@ -43,4 +43,4 @@ struct Instances {
 // which its matrix can be inverted). A vertex cache takes the place of bones, nodes and targets.
 Instances gather_instances(const io::Model& model, const Rig& rig, const std::vector<double>& times);
 
-}  // namespace plisse
+}  // namespace plisse::scene

@@ -6,7 +6,7 @@
 
 #include "scene/sample.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 Rig::Rig(const io::Model& model, const io::Clip* clip) : nodes_(model.nodes) {
   channel_of_.assign(nodes_.size(), -1);
@@ -84,4 +84,4 @@ int Rig::moving_ancestor(int node) const {
   return -1;
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

@@ -6,7 +6,7 @@
 
 #include "io/model.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 class Rig {
  public:
@@ -40,4 +40,4 @@ class Rig {
   std::vector<Parts> parts_;     // per node
 };
 
-}  // namespace plisse
+}  // namespace plisse::scene

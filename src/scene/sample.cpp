@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace plisse {
+namespace plisse::scene {
 namespace {
 
 // Where a time stands: between keys `before` and `before + 1`, at `part` of the way; part 0 on and outside
@@ -85,4 +85,4 @@ std::vector<double> sample(const io::Keys<std::vector<double>>& track, double ti
   return result;
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

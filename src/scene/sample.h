@@ -7,7 +7,7 @@
 
 #include "io/model.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 // time in seconds; the track must have a key. Rotations come out with length 1 (or non-finite, where a key is
 // 0).
@@ -15,4 +15,4 @@ glm::dvec3 sample(const io::Keys<glm::dvec3>& track, double time);
 glm::dquat sample(const io::Keys<glm::dquat>& track, double time);
 std::vector<double> sample(const io::Keys<std::vector<double>>& track, double time);
 
-}  // namespace plisse
+}  // namespace plisse::scene

@@ -12,7 +12,7 @@
 #include "mesh/place_index.h"
 #include "mesh/weld.h"
 
-namespace plisse {
+namespace plisse::scene {
 namespace {
 
 Error bad(const std::filesystem::path& path, const std::string& what) {
@@ -53,7 +53,7 @@ std::vector<double> by_vertex(const Surface& surface, const std::filesystem::pat
   return result;
 }
 
-std::vector<double> by_picture(const Surface& surface, const WrinkleSettings& settings) {
+std::vector<double> by_picture(const Surface& surface, const config::WrinkleSettings& settings) {
   const double high = settings.wavelength,
                low = settings.wavelength_low > 0 ? settings.wavelength_low : 0.5 * high;
   const io::Image image = io::load_image(settings.wavelength_map);
@@ -79,8 +79,8 @@ std::vector<double> by_picture(const Surface& surface, const WrinkleSettings& se
 
 }  // namespace
 
-void take_wavelengths(const Surface& surface, const WrinkleSettings& settings, const glm::dmat4& to_world,
-                      VertexWaves& waves) {
+void take_wavelengths(const Surface& surface, const config::WrinkleSettings& settings,
+                      const glm::dmat4& to_world, VertexWaves& waves) {
   const std::filesystem::path& map = settings.wavelength_map;
   const std::vector<double> wanted = lower_case(map.extension().string()) == ".ply"
                                          ? by_vertex(surface, map, to_world)
@@ -88,4 +88,4 @@ void take_wavelengths(const Surface& surface, const WrinkleSettings& settings, c
   for (std::size_t v = 0; v < wanted.size(); ++v) waves.wavelength[v] *= wanted[v] / settings.wavelength;
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

@@ -19,7 +19,7 @@
 #include "base/error.h"
 #include "config/suggest.h"
 
-namespace plisse {
+namespace plisse::scene {
 namespace {
 
 // In ascending order.
@@ -74,7 +74,7 @@ double noise(const glm::dvec3& x, std::uint32_t seed, int channel) {
 
 }  // namespace
 
-void select_parts(Surface& surface, const WrinkleSettings& settings) {
+void select_parts(Surface& surface, const config::WrinkleSettings& settings) {
   std::set<std::string> known;
   for (const Part& part : surface.parts) {
     if (!part.mesh.empty()) known.insert(part.mesh);
@@ -86,7 +86,7 @@ void select_parts(Surface& surface, const WrinkleSettings& settings) {
       if (known.count(name)) continue;
       throw Error(ExitCode::bad_input,
                   fmt::format("'{}' is neither a mesh nor a material of this model{}; there are: {}", name,
-                              did_you_mean(name, names), fmt::join(names, ", ")));
+                              config::did_you_mean(name, names), fmt::join(names, ", ")));
     }
   }
   const auto named = [](const Part& part, const std::vector<std::string>& list) {
@@ -118,7 +118,7 @@ double default_wavelength(const Surface& surface) {
   return wavelength > 0 ? wavelength : 1.0;
 }
 
-VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings, double wavelength) {
+VertexWaves vertex_waves(const Surface& surface, const config::WrinkleSettings& settings, double wavelength) {
   const std::size_t count = surface.vertex_count();
   VertexWaves waves;
   waves.wavelength.assign(count, wavelength);
@@ -140,4 +140,4 @@ VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings
   return waves;
 }
 
-}  // namespace plisse
+}  // namespace plisse::scene

@@ -6,11 +6,11 @@
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 
-namespace plisse {
+namespace plisse::scene {
 
 // Switches off the parts that --only and --exclude leave out. Throws Error(bad_input) for a name that is
 // neither a mesh nor a material, listing those there are.
-void select_parts(Surface& surface, const WrinkleSettings& settings);
+void select_parts(Surface& surface, const config::WrinkleSettings& settings);
 
 // W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
 // diagonal.
@@ -20,6 +20,6 @@ double default_wavelength(const Surface& surface);
 // along the edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and height
 // by up to a quarter and place by up to a quarter of a wavelength, smoothly over about three wavelengths.
 // Needs surface.neighbours.
-VertexWaves vertex_waves(const Surface& surface, const WrinkleSettings& settings, double wavelength);
+VertexWaves vertex_waves(const Surface& surface, const config::WrinkleSettings& settings, double wavelength);
 
-}  // namespace plisse
+}  // namespace plisse::scene

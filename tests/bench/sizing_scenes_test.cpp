@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-#include "pipeline/drape.h"
+#include "cloth/drape.h"
 #include "sizing/rules.h"
 
 namespace plisse::bench {
 namespace {
 
-shell::Equilibrium solved(const DrapeScene& scene) {
-  return shell::find_equilibrium(shell_of(scene), scene.conditions(1), scene.loads, scene.start,
+shell::Equilibrium solved(const cloth::DrapeScene& scene) {
+  return shell::find_equilibrium(cloth::shell_of(scene), scene.conditions(1), scene.loads, scene.start,
                                  scene.newton);
 }
 
@@ -39,7 +39,7 @@ TEST(SizingScenes, TheStripSettlesOnTheBeam) {
 
 TEST(SizingScenes, TheSheetIsMeshedWithTheEdgesAskedFor) {
   for (const double edge : {8e-3, 4e-3}) {
-    const DrapeScene scene = sheet_scene(edge, false);
+    const cloth::DrapeScene scene = sheet_scene(edge, false);
     // (2/√3) A/r² + P/2r + 1, and the mesher keeps 15 % (docs/sizing.md).
     const double expected = 2 / std::sqrt(3.0) * 0.025 / (edge * edge) + 0.35 / edge + 1;
     EXPECT_NEAR(static_cast<double>(scene.start.cols()) / expected, 1, 0.15);
@@ -54,7 +54,7 @@ TEST(SizingScenesSlow, TheCurtainFindsItsOwnTransition) {
   curtain.height = 0.1;
   Transition found[2];
   for (const int i : {0, 1}) {
-    const DrapeScene scene = curtain_scene(curtain, 1.2e-3, i == 0 ? 0.02 : 0.04);
+    const cloth::DrapeScene scene = curtain_scene(curtain, 1.2e-3, i == 0 ? 0.02 : 0.04);
     const auto drape = solved(scene);
     EXPECT_TRUE(drape.converged);
     found[i] = transition_of(curtain, scene, drape.positions);

@@ -5,8 +5,8 @@
 
 namespace plisse::benchmark {
 
-SceneSettings scene_settings(const std::string& name, const Effort& effort) {
-  SceneSettings settings = load_scene(test::asset(name + ".toml").string());
+config::SceneSettings scene_settings(const std::string& name, const Effort& effort) {
+  config::SceneSettings settings = config::load_scene(test::asset(name + ".toml").string());
   settings.output.width = effort.width;
   settings.output.height = effort.height;
   return settings;

@@ -17,7 +17,7 @@ struct Effort : Turns {
 };
 
 // A scene of assets/ ("shirt") at the effort's picture size.
-SceneSettings scene_settings(const std::string& name, const Effort& effort);
+config::SceneSettings scene_settings(const std::string& name, const Effort& effort);
 Subject scene_subject(const std::string& name, const Effort& effort);
 inline Subject grid_subject(const Effort& effort) {
   return bench::grid_subject(effort.grid_vertices, effort.width, effort.height);

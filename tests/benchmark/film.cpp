@@ -8,9 +8,11 @@
 
 #include "benchmark/effort.h"
 #include "config/scene_file.h"
+#include "config/settings.h"
 #include "gpu/timer.h"
-#include "pipeline.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/look.h"
+#include "pipeline/render.h"
 #include "pipeline/stepper.h"
 #include "support/files.h"
 
@@ -28,18 +30,19 @@ int frame_count(const pipeline::LoadedScene& scene, const Effort& effort) {
 
 }  // namespace
 
-SceneSettings film_settings(const std::string& scene, const Effort& effort, int samples_a_pixel) {
-  SceneSettings settings = scene_settings(scene, effort);
+config::SceneSettings film_settings(const std::string& scene, const Effort& effort, int samples_a_pixel) {
+  config::SceneSettings settings = scene_settings(scene, effort);
   settings.output.samples = samples_a_pixel;
   return settings;
 }
 
-Sample film_without_files(const SceneSettings& settings, const Effort& effort, bool read_back,
+Sample film_without_files(const config::SceneSettings& settings, const Effort& effort, bool read_back,
                           bool software) {
   pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);
   pipeline::Stepper stepper(scene, timer, "");
-  passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+  passes::RenderPass pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+                          pipeline::texture_levels(scene), "");
   const auto& output = settings.output;
   const gpu::Target target(output.width, output.height, output.samples, gpu::Target::Format::srgb8);
   const int frames = frame_count(scene, effort);
@@ -57,27 +60,28 @@ Sample film_without_files(const SceneSettings& settings, const Effort& effort, b
   return per_frame(now() - begin, frames - 1);
 }
 
-FilmWithFiles film_with_files(SceneSettings settings, const Effort& effort) {
+FilmWithFiles film_with_files(config::SceneSettings settings, const Effort& effort) {
   const test::TemporaryFolder folder;
   settings.output.path = folder.path().string();
   if (effort.frames > 0) settings.model.frames = fmt::format("1-{}", effort.frames);
-  RenderRequest request;
+  pipeline::RenderRequest request;
   request.scene = settings;
   FilmWithFiles result;
   Sample begin, end;
-  const RenderReport report =
-      render(request, [&](int done, int, const FrameReport&) { (done == 1 ? begin : end) = now(); });
+  const pipeline::RenderReport report = pipeline::render(
+      request, [&](int done, int, const pipeline::FrameReport&) { (done == 1 ? begin : end) = now(); });
   result.frames = static_cast<int>(report.frames.size());
   result.frame = per_frame(end - begin, result.frames - 1);
   result.whole_run_fps = report.fps;
   return result;
 }
 
-double average_covered_pixels(const SceneSettings& settings, const Effort& effort) {
+double average_covered_pixels(const config::SceneSettings& settings, const Effort& effort) {
   pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);
   pipeline::Stepper stepper(scene, timer, "");
-  passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+  passes::RenderPass pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+                          pipeline::texture_levels(scene), "");
   const gpu::Target target(effort.width, effort.height, 1, gpu::Target::Format::rgba32f);
   const int frames = frame_count(scene, effort);
   double sum = 0;

@@ -15,7 +15,7 @@ void measure_frames(Report& report, const Effort& effort) {
       {}};
   const int runs = std::min(effort.samples, 3);
   for (const char* name : {"sleeve", "shirt", "zeppelin"}) {
-    const SceneSettings settings = film_settings(name, effort, 4);
+    const config::SceneSettings settings = film_settings(name, effort, 4);
     std::vector<double> fps[2], cpu[2], whole;
     for (int run = 0; run < runs; ++run) {
       const FilmWithFiles film = film_with_files(settings, effort);

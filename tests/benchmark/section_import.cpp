@@ -123,7 +123,7 @@ void measure_import(Report& report, const Effort& effort) {
       const Sample begin = now();
       const io::Model model = io::import_model(folder / "sheet.glb");
       const Sample read = now();
-      const Animation animation(model, {});
+      const scene::Animation animation(model, {});
       welding.push_back((now() - read).wall_s);
       reading.push_back((read - begin).wall_s);
     }

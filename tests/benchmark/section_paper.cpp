@@ -35,8 +35,8 @@ void measure_table1(Report& report, const Effort& effort) {
   const int runs = std::min(effort.samples, 3);
   for (const Table1Row& row : table1) {
     const gpu::Context context;
-    const SceneSettings settings[] = {film_settings(row.scene, effort, 1),
-                                      film_settings(row.scene, effort, 4)};
+    const config::SceneSettings settings[] = {film_settings(row.scene, effort, 1),
+                                              film_settings(row.scene, effort, 4)};
     std::vector<double> fps[2], cpu[2];
     for (int run = 0; run < runs; ++run) {
       for (std::size_t i = 0; i < 2; ++i) {

@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(DrapeFile, ReadsWhatItSays) {
-  const DrapeSettings s = parse_drape(
+  const config::DrapeSettings s = config::parse_drape(
       "[drape]\npanel = [\"60 cm\", 0.4]\nvertices = 800\nplane = \"xz\"\nmodel = \"stvk\"\nframes = 3\n"
       "[material]\nthickness = \"0.5 mm\"\n[loads]\ngravity = [0, 0, -1]\n"
       "[[hold]]\nbox = [[1, 0, 2], [0, 1, 0]]\naxes = \"xz\"\nturn = 90\n"
@@ -40,14 +40,14 @@ TEST(DrapeFile, ReadsWhatItSays) {
 }
 
 TEST(DrapeFile, FabricsAreThoseOfPanelFiles) {
-  const DrapeSettings named = parse_drape(
+  const config::DrapeSettings named = config::parse_drape(
       "[drape]\npanel = [1, 1]\n[material]\nfabric = \"khaki\"\ndensity = \"120 g/m²\"\n", "cloth.toml");
   ASSERT_TRUE(named.fabric);
   EXPECT_EQ(named.fabric->weft.modulus, 5e5);
   EXPECT_DOUBLE_EQ(named.weight.value_or(0), 0.12);
   EXPECT_FALSE(named.density);
   EXPECT_EQ(named.vertices, 0);
-  const DrapeSettings numbers = parse_drape(
+  const config::DrapeSettings numbers = config::parse_drape(
       "[drape]\npanel = [1, 1]\n[material]\nfabric = { thickness = \"0.4 mm\", E = \"0.3 MPa\", density = "
       "\"200 g/m²\" }\ndensity = 300\n",
       "cloth.toml");
@@ -56,15 +56,16 @@ TEST(DrapeFile, FabricsAreThoseOfPanelFiles) {
   EXPECT_EQ(numbers.density, 300);
   EXPECT_THAT(
       test::error_of([] {
-        parse_drape("[drape]\npanel = [1, 1]\n[material]\nfabric = \"kaki\"\nyoung = 3\ndensity = \"3 m\"\n",
-                    "c.toml");
+        config::parse_drape(
+            "[drape]\npanel = [1, 1]\n[material]\nfabric = \"kaki\"\nyoung = 3\ndensity = \"3 m\"\n",
+            "c.toml");
       }),
       AllOf(HasSubstr("c.toml:4:10: key 'fabric': 'kaki' is unknown"), HasSubstr("did you mean 'khaki'?"),
             HasSubstr("key 'young': follows from 'fabric'"), HasSubstr("'3 m' is no weight")));
 }
 
 TEST(DrapeFile, ForcesFrictionAndMirrors) {
-  const DrapeSettings s = parse_drape(
+  const config::DrapeSettings s = config::parse_drape(
       "[drape]\npanel = [1, 1]\n[loads]\nfriction = 0.4\n"
       "[[hold]]\nbox = [[0, 0, 0], [0, 1, 0]]\naxes = \"x\"\nmirror = true\n"
       "[[force]]\nvertices = [7]\ntotal = [0, 0, 2]\n"
@@ -78,7 +79,7 @@ TEST(DrapeFile, ForcesFrictionAndMirrors) {
   EXPECT_EQ(s.forces[1].per_length, glm::dvec3(3, 0, 0));
   EXPECT_TRUE(s.forces[1].grows);
   const std::string all = test::error_of([] {
-    parse_drape(
+    config::parse_drape(
         "[drape]\npanel = [1, 1]\n[[force]]\nvertices = [1]\n[[hold]]\nvertices = [1]\nmirror = true\n"
         "[[force]]\nvertices = [1]\ntotal = [1, 1, 1]\ngrows = 1\n",
         "bad.toml");
@@ -90,7 +91,7 @@ TEST(DrapeFile, ForcesFrictionAndMirrors) {
 
 TEST(DrapeFile, AllMistakesAtOnce) {
   const std::string all = test::error_of([] {
-    parse_drape(
+    config::parse_drape(
         "[drape]\nvertices = 5\n[materials]\nyoung = 1\n[loads]\ngravity = [0, 1]\n[hold]\nturn = 1\n",
         "bad.toml");
   });
@@ -104,7 +105,7 @@ TEST(DrapeFile, KeysThatWouldHaveNoEffectAreRefused) {
   test::write_text(folder / "m.obj", "v 0 0 0\n");
   test::write_text(folder / "p.toml", "");
   const auto complaints = [&](const std::string& keys) {
-    return test::error_of([&] { parse_drape("[drape]\n" + keys, folder / "c.toml"); });
+    return test::error_of([&] { config::parse_drape("[drape]\n" + keys, folder / "c.toml"); });
   };
   EXPECT_THAT(complaints("mesh = \"m.obj\"\nseed = 1\nvertices = 100\nplane = \"xy\"\n"),
               AllOf(HasSubstr("c.toml:3:8: key 'seed': has no effect on a 'mesh'"),
@@ -121,9 +122,10 @@ TEST(DrapeFile, KeysThatWouldHaveNoEffectAreRefused) {
 }
 
 TEST(DrapeFile, ReferenceIsWhatTheParserSays) {
-  EXPECT_THAT(test::read_text(test::source_file("docs/drape.md")), HasSubstr(drape_reference_markdown()))
+  EXPECT_THAT(test::read_text(test::source_file("docs/drape.md")),
+              HasSubstr(config::drape_reference_markdown()))
       << "docs/drape.md has another table:\n"
-      << drape_reference_markdown();
+      << config::drape_reference_markdown();
 }
 
 }  // namespace

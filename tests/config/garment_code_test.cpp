@@ -48,7 +48,7 @@ const std::string sleeve = R"({
 })";
 
 sizing::Garment parse(const std::string& text) {
-  return parse_garment_code(text, "p.json", *sizing::find_fabric("khaki"));
+  return config::parse_garment_code(text, "p.json", *sizing::find_fabric("khaki"));
 }
 
 TEST(GarmentCode, PanelsStitchesAndPlaces) {
@@ -110,12 +110,12 @@ TEST(GarmentCode, NeedsAFabricAndTomlDoesNot) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "p.json", sleeve);
   const sizing::Fabric* khaki = sizing::find_fabric("khaki");
-  EXPECT_EQ(load_panels(folder / "p.json", khaki).garment.seams.size(), 2U);
-  EXPECT_THAT(test::error_of([&] { load_panels(folder / "p.json"); }),
+  EXPECT_EQ(config::load_panels(folder / "p.json", khaki).garment.seams.size(), 2U);
+  EXPECT_THAT(test::error_of([&] { config::load_panels(folder / "p.json"); }),
               HasSubstr("tells no fabric; give one beside it, a name or B,E: --fabric"));
   // A fabric that is given counts for all panels, whatever their file says.
-  const sizing::Garment own = load_panels(test::asset("panels.toml")).garment,
-                        given = load_panels(test::asset("panels.toml"), khaki).garment;
+  const sizing::Garment own = config::load_panels(test::asset("panels.toml")).garment,
+                        given = config::load_panels(test::asset("panels.toml"), khaki).garment;
   ASSERT_EQ(given.panels.size(), own.panels.size());
   bool differs = false;
   for (std::size_t i = 0; i < given.panels.size(); ++i) {

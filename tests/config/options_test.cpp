@@ -17,19 +17,19 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-SceneSettings with(const GivenOptions& options) {
-  SceneSettings scene = bare_scene("model.glb");
-  apply_options(scene, options);
+config::SceneSettings with(const config::GivenOptions& options) {
+  config::SceneSettings scene = config::bare_scene("model.glb");
+  config::apply_options(scene, options);
   return scene;
 }
 
-std::string error_of(const GivenOptions& options) {
+std::string error_of(const config::GivenOptions& options) {
   return test::error_of([&] { with(options); });
 }
 
 TEST(Options, EveryOptionOfTheContractIsThere) {
   std::vector<std::string> names;
-  for (const SceneOption& option : scene_options()) names.push_back(option.name);
+  for (const config::SceneOption& option : config::scene_options()) names.push_back(option.name);
   // docs/contract.md, the line of `render`, those that concern the scene.
   EXPECT_THAT(names,
               testing::UnorderedElementsAre("--output", "--frames", "--fps", "--clip", "--size", "--samples",
@@ -39,24 +39,24 @@ TEST(Options, EveryOptionOfTheContractIsThere) {
 }
 
 TEST(Options, OverrideTheScene) {
-  const SceneSettings scene = with({{"--output", {"x_##.png"}},
-                                    {"--frames", {"1-4"}},
-                                    {"--fps", {"12.5"}},
-                                    {"--clip", {"007"}},
-                                    {"--size", {"64x32"}},
-                                    {"--samples", {"1"}},
-                                    {"--wavelength", {"9 mm"}},
-                                    {"--strength", {"0.5"}},
-                                    {"--relax", {"descent"}},
-                                    {"--rounds", {"3"}},
-                                    {"--interval", {"2"}},
-                                    {"--only", {"a", "b,c"}},
-                                    {"--exclude", {"7"}},
-                                    {"--rest", {"frame:2"}},
-                                    {"--up", {"z"}},
-                                    {"--units", {"0.01"}},
-                                    {"--profile", {"pencil"}},
-                                    {"--background", {"#ff0000"}}});
+  const config::SceneSettings scene = with({{"--output", {"x_##.png"}},
+                                            {"--frames", {"1-4"}},
+                                            {"--fps", {"12.5"}},
+                                            {"--clip", {"007"}},
+                                            {"--size", {"64x32"}},
+                                            {"--samples", {"1"}},
+                                            {"--wavelength", {"9 mm"}},
+                                            {"--strength", {"0.5"}},
+                                            {"--relax", {"descent"}},
+                                            {"--rounds", {"3"}},
+                                            {"--interval", {"2"}},
+                                            {"--only", {"a", "b,c"}},
+                                            {"--exclude", {"7"}},
+                                            {"--rest", {"frame:2"}},
+                                            {"--up", {"z"}},
+                                            {"--units", {"0.01"}},
+                                            {"--profile", {"pencil"}},
+                                            {"--background", {"#ff0000"}}});
   EXPECT_EQ(scene.output.path, "x_##.png");
   EXPECT_EQ(scene.model.frames, "1-4");
   EXPECT_EQ(scene.model.frames_per_second, 12.5);
@@ -66,7 +66,7 @@ TEST(Options, OverrideTheScene) {
   EXPECT_EQ(scene.output.samples, 1);
   EXPECT_EQ(scene.wrinkles.wavelength, 0.009);
   EXPECT_EQ(scene.wrinkles.strength, 0.5);
-  EXPECT_EQ(scene.relax.mode, RelaxMode::descent);
+  EXPECT_EQ(scene.relax.mode, config::RelaxMode::descent);
   EXPECT_EQ(scene.relax.rounds, 3);
   EXPECT_EQ(scene.relax.interval, 2);
   EXPECT_THAT(scene.wrinkles.only, ElementsAre("a", "b,c"));
@@ -79,9 +79,9 @@ TEST(Options, OverrideTheScene) {
 }
 
 TEST(Options, ColourAfterTransparentIsOpaque) {
-  SceneSettings scene;
+  config::SceneSettings scene;
   scene.output.transparent = true;
-  apply_options(scene, {{"--background", {"#ffffff"}}});
+  config::apply_options(scene, {{"--background", {"#ffffff"}}});
   EXPECT_FALSE(scene.output.transparent);
 }
 
@@ -89,30 +89,30 @@ TEST(Options, CameraTakesItsThreeForms) {
   EXPECT_EQ(with({{"--camera", {"main"}}}).camera.name, "main");
   EXPECT_EQ(with({{"--camera", {"0"}}}).camera.name, "0");
 
-  const CameraSettings angles = with({{"--camera", {"-30,10,85"}}}).camera;
+  const config::CameraSettings angles = with({{"--camera", {"-30,10,85"}}}).camera;
   EXPECT_EQ(angles.azimuth, -30);
   EXPECT_EQ(angles.elevation, 10);
   EXPECT_EQ(angles.focal_length, 85);
   EXPECT_FALSE(angles.explicit_pose);
-  EXPECT_EQ(with({{"--camera", {"5,6"}}}).camera.focal_length, CameraSettings{}.focal_length);
+  EXPECT_EQ(with({{"--camera", {"5,6"}}}).camera.focal_length, config::CameraSettings{}.focal_length);
 
-  const CameraSettings points = with({{"--camera", {"target=0,1,0;eye=1,20 cm,-3"}}}).camera;
+  const config::CameraSettings points = with({{"--camera", {"target=0,1,0;eye=1,20 cm,-3"}}}).camera;
   EXPECT_TRUE(points.explicit_pose);
   EXPECT_EQ(points.eye, glm::dvec3(1, 0.2, -3));
   EXPECT_EQ(points.target, glm::dvec3(0, 1, 0));
 }
 
 TEST(Options, CameraReplacesTheScenes) {
-  SceneSettings scene;
+  config::SceneSettings scene;
   scene.camera.name = "main";
-  apply_options(scene, {{"--camera", {"1,2"}}});
+  config::apply_options(scene, {{"--camera", {"1,2"}}});
   EXPECT_EQ(scene.camera.name, "");
-  apply_options(scene, {{"--camera", {"eye=1,2,3;target=0,0,0"}}});
+  config::apply_options(scene, {{"--camera", {"eye=1,2,3;target=0,0,0"}}});
   EXPECT_TRUE(scene.camera.explicit_pose);
-  apply_options(scene, {{"--camera", {"1,2"}}});
+  config::apply_options(scene, {{"--camera", {"1,2"}}});
   EXPECT_FALSE(scene.camera.explicit_pose);
-  apply_options(scene, {{"--camera", {"eye=1,2,3;target=0,0,0"}}});
-  apply_options(scene, {{"--camera", {"main"}}});
+  config::apply_options(scene, {{"--camera", {"eye=1,2,3;target=0,0,0"}}});
+  config::apply_options(scene, {{"--camera", {"main"}}});
   EXPECT_FALSE(scene.camera.explicit_pose);
 }
 

@@ -18,7 +18,9 @@ using ::testing::Not;
 class PaintFile : public ::testing::Test {
  protected:
   PaintFile() { test::write_text(folder_ / "scene.toml", ""); }
-  PaintSettings parse(const std::string& text) const { return parse_paint(text, folder_ / "paint.toml"); }
+  config::PaintSettings parse(const std::string& text) const {
+    return config::parse_paint(text, folder_ / "paint.toml");
+  }
   std::string complaint(const std::string& text) const {
     return test::error_of([&] { parse(text); });
   }
@@ -27,7 +29,7 @@ class PaintFile : public ::testing::Test {
 };
 
 TEST_F(PaintFile, ReadsEveryKindOfStroke) {
-  const PaintSettings settings = parse(
+  const config::PaintSettings settings = parse(
       "scene = \"scene.toml\"\ntexture_size = 512\npreview_frame = 3\n"
       "[[stroke]]\nkind = \"screen\"\npoints = [[10, 20.5], [30, 40]]\nradius = 12\nframe = 5\nsize = "
       "\"640x480\"\n"
@@ -49,9 +51,9 @@ TEST_F(PaintFile, ReadsEveryKindOfStroke) {
   const auto& surface = settings.strokes[1];
   EXPECT_NEAR(surface.points[0].y, 0.012, 1e-15);
   EXPECT_NEAR(surface.radius, 0.03, 1e-15);
-  EXPECT_EQ(surface.direction.kind, PaintDirection::Kind::vector);
-  EXPECT_EQ(surface.falloff, PaintStroke::Falloff::flat);
-  EXPECT_EQ(settings.strokes[2].direction.kind, PaintDirection::Kind::random);
+  EXPECT_EQ(surface.direction.kind, config::PaintDirection::Kind::vector);
+  EXPECT_EQ(surface.falloff, config::PaintStroke::Falloff::flat);
+  EXPECT_EQ(settings.strokes[2].direction.kind, config::PaintDirection::Kind::random);
   EXPECT_THAT(settings.strokes[2].only, ElementsAre("cloth"));
   EXPECT_EQ(settings.strokes[3].strength, 1);  // an eraser takes all
 }
@@ -94,8 +96,8 @@ TEST_F(PaintFile, TellsEachMistakeWithItsLine) {
 
 TEST_F(PaintFile, ReferenceIsWhatTheParserSays) {
   const std::string file = test::read_text(test::source_file("docs/paint.md"));
-  EXPECT_THAT(file, HasSubstr(paint_reference_markdown())) << "docs/paint.md has other tables:\n"
-                                                           << paint_reference_markdown();
+  EXPECT_THAT(file, HasSubstr(config::paint_reference_markdown())) << "docs/paint.md has other tables:\n"
+                                                                   << config::paint_reference_markdown();
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-PanelFile parse(const std::string& text) {
-  return parse_panels(text, "p.toml");
+config::PanelFile parse(const std::string& text) {
+  return config::parse_panels(text, "p.toml");
 }
 
 std::string complaint(const std::string& text) {
@@ -30,8 +30,8 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-TEST(PanelFile, UnitsFabricsAndFeatures) {
-  const PanelFile file = parse(R"(
+TEST(config::PanelFile, UnitsFabricsAndFeatures) {
+  const config::PanelFile file = parse(R"(
 units = "mm"
 fabric = { B = "0.02 gf·cm²/cm", E = "0.3 MPa" }
 [sizing]
@@ -80,7 +80,7 @@ grain = 45
   EXPECT_DOUBLE_EQ(second.grain, 45);
 }
 
-TEST(PanelFile, AllThatIsWrongAtOnceWithPlaceAndRemedy) {
+TEST(config::PanelFile, AllThatIsWrongAtOnceWithPlaceAndRemedy) {
   const std::string text = complaint(R"(fabric = "wine-stile"
 [sizing]
 gradation = 3
@@ -110,7 +110,7 @@ grian = 3
   EXPECT_THAT(complaint(""), HasSubstr("key 'panel': missing"));
 }
 
-TEST(PanelFile, ArcsAndBeziersAreSvgs) {
+TEST(config::PanelFile, ArcsAndBeziersAreSvgs) {
   // A quarter of a circle by an arc; the same by the usual cubic, 2.7e-4 R off at most; and S and T go on
   // smoothly.
   const auto arc = sizing::parse_path("M 1 0 A 1 1 0 0 1 0 1")[0];
@@ -129,7 +129,7 @@ TEST(PanelFile, ArcsAndBeziersAreSvgs) {
   EXPECT_EQ(sizing::parse_path("M0,0 1,0 1,1zM5 5l1 0 0 1z").size(), 2U);
 }
 
-TEST(PanelFile, CurvesFromSvgFiles) {
+TEST(config::PanelFile, CurvesFromSvgFiles) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "a.svg",
                    "<svg><path id='other' d='M0 0H1V1Z'/>\n<path\n fill=\"none\" id = \"front\"\n d=\"M 0 0 "
@@ -137,7 +137,7 @@ TEST(PanelFile, CurvesFromSvgFiles) {
   test::write_text(
       folder / "p.toml",
       "units = \"mm\"\nfabric = \"khaki\"\n[[panel]]\noutline = { svg = \"a.svg\", id = \"front\" }\n");
-  const sizing::Polyline outline = load_panels(folder / "p.toml").garment.panels.at(0).outline;
+  const sizing::Polyline outline = config::load_panels(folder / "p.toml").garment.panels.at(0).outline;
   ASSERT_EQ(outline.points.size(), 3U);
   EXPECT_TRUE(outline.closed);
   EXPECT_DOUBLE_EQ(outline.points[2].x, 0.04);
@@ -152,7 +152,7 @@ TEST(PanelFile, CurvesFromSvgFiles) {
     EXPECT_THROW(sizing::parse_svg(broken, ""), Error) << broken;
 }
 
-TEST(PanelFile, CurvesFromObjFiles) {
+TEST(config::PanelFile, CurvesFromObjFiles) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "front.obj",
                    "v 0 0 0\nv 40 0 0\nv 40 20 0\nv 0 20 0\nv 10 5 0\nv 12 5 0\nv 11 7 0\nv 0 10 0\n"
@@ -161,7 +161,7 @@ TEST(PanelFile, CurvesFromObjFiles) {
                    "units = \"mm\"\nfabric = \"khaki\"\n[[panel]]\noutline = { obj = \"front.obj\", id = "
                    "\"cut\" }\n[[panel.feature]]\nrule = \"fold\"\nangle = 90\nline = { obj = "
                    "\"front.obj\", id = \"crease\" }\n");
-  const sizing::Panel panel = load_panels(folder / "p.toml").garment.panels.at(0);
+  const sizing::Panel panel = config::load_panels(folder / "p.toml").garment.panels.at(0);
   EXPECT_DOUBLE_EQ(std::abs(signed_area(panel.outline)), 8e-4);
   ASSERT_EQ(panel.holes.size(), 1U);  // what lies in the outer line
   EXPECT_DOUBLE_EQ(std::abs(signed_area(panel.holes[0])), 2e-6);
@@ -176,16 +176,16 @@ TEST(PanelFile, CurvesFromObjFiles) {
   EXPECT_THAT(text("obj = \"none.obj\""), HasSubstr("none.obj"));
 }
 
-TEST(PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
+TEST(config::PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
   const std::string text =
       "fabric = \"khaki\"\n[[panel]]\noutline = [[0,0],[1,0],[0,1]]\n[[panel]]\nfabric = \"rose\"\n"
       "outline = [[0,0],[1,0],[0,1]]\n";
   EXPECT_EQ(parse(text).garment.panels[1].fabric.name, "rose");
   const sizing::Fabric& green = *sizing::find_fabric("green");
-  for (const sizing::Panel& panel : parse_panels(text, "p.toml", &green).garment.panels)
+  for (const sizing::Panel& panel : config::parse_panels(text, "p.toml", &green).garment.panels)
     EXPECT_EQ(panel.fabric.name, "green");
   // Then the file need not have one.
-  EXPECT_EQ(parse_panels("[[panel]]\noutline = [[0,0],[1,0],[0,1]]", "p.toml", &green)
+  EXPECT_EQ(config::parse_panels("[[panel]]\noutline = [[0,0],[1,0],[0,1]]", "p.toml", &green)
                 .garment.panels.at(0)
                 .fabric.name,
             "green");
@@ -196,9 +196,9 @@ TEST(PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
             sizing::find_fabric("wine-style")->weft);
 }
 
-TEST(PanelFile, PiecesStayWithTheSeamsBetweenThem) {
-  PanelFile skirt = load_panels(test::asset("skirt.toml"));
-  keep_pieces(skirt, {"band-back", "back"});
+TEST(config::PanelFile, PiecesStayWithTheSeamsBetweenThem) {
+  config::PanelFile skirt = config::load_panels(test::asset("skirt.toml"));
+  config::keep_pieces(skirt, {"band-back", "back"});
   ASSERT_EQ(skirt.garment.panels.size(), 2U);
   EXPECT_EQ(skirt.garment.panels[0].name, "back");  // in the file's order
   EXPECT_EQ(skirt.garment.placements.size(), 2U);
@@ -207,17 +207,17 @@ TEST(PanelFile, PiecesStayWithTheSeamsBetweenThem) {
   EXPECT_EQ(skirt.garment.seams[0].a.panel, 0U);
   EXPECT_EQ(skirt.garment.seams[0].b.panel, 1U);
   try {
-    keep_pieces(skirt, {"bakc"});
+    config::keep_pieces(skirt, {"bakc"});
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean 'back'?"));
   }
-  EXPECT_TRUE(is_panel_file(test::asset("skirt.toml")));
-  EXPECT_FALSE(is_panel_file(test::asset("sleeve.toml")));
+  EXPECT_TRUE(config::is_panel_file(test::asset("skirt.toml")));
+  EXPECT_FALSE(config::is_panel_file(test::asset("sleeve.toml")));
 }
 
-TEST(PanelFile, TheExamplesAreRead) {
-  const PanelFile file = load_panels(test::asset("panels.toml"));
+TEST(config::PanelFile, TheExamplesAreRead) {
+  const config::PanelFile file = config::load_panels(test::asset("panels.toml"));
   EXPECT_GE(file.garment.panels.size(), 8U);
 }
 

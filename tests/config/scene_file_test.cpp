@@ -27,9 +27,9 @@ class SceneFile : public testing::Test {
     test::write_text(folder_ / "walk.mdd", "nor this");
   }
 
-  SceneSettings parse(const std::string& text) const { return parse_scene(text, file()); }
+  config::SceneSettings parse(const std::string& text) const { return config::parse_scene(text, file()); }
   // A scene with a model and these lines after it; they start in line 3.
-  SceneSettings parse_after_model(const std::string& lines) const {
+  config::SceneSettings parse_after_model(const std::string& lines) const {
     return parse("[model]\npath = \"model.glb\"\n" + lines);
   }
   std::filesystem::path file() const { return folder_ / "scene.toml"; }
@@ -67,7 +67,7 @@ class SceneFile : public testing::Test {
 
 TEST_F(SceneFile, ReadsEveryKindOfValue) {
   test::write_text(folder_ / "wave.txt", "");
-  const SceneSettings scene = parse_after_model(R"(
+  const config::SceneSettings scene = parse_after_model(R"(
 clip = "Walk"
 fps = 30
 frames = "1-48x2,60"
@@ -116,7 +116,7 @@ background = "transparent"
   EXPECT_THAT(scene.wrinkles.only, ElementsAre("shirt", "trousers"));
   EXPECT_THAT(scene.wrinkles.exclude, ElementsAre("face"));
   EXPECT_EQ(scene.wrinkles.seed, 4294967295U);
-  EXPECT_EQ(scene.relax.mode, RelaxMode::descent);
+  EXPECT_EQ(scene.relax.mode, config::RelaxMode::descent);
   EXPECT_EQ(scene.relax.rounds, 5);
   EXPECT_TRUE(scene.camera.explicit_pose);
   EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 0.5, -2.5));
@@ -124,8 +124,8 @@ background = "transparent"
   EXPECT_EQ(scene.light.key_colour, glm::vec3(1, 128.0F / 255, 0));
   EXPECT_EQ(scene.light.fill_colour, glm::vec3(0.25F, 0.5F, 1));
   EXPECT_TRUE(scene.light.shadows);
-  EXPECT_EQ(scene.shading.blend, Blend::linear);
-  EXPECT_EQ(scene.shading.gradient, Gradient::paper);
+  EXPECT_EQ(scene.shading.blend, config::Blend::linear);
+  EXPECT_EQ(scene.shading.gradient, config::Gradient::paper);
   EXPECT_EQ(scene.output.path, in_folder("out/img_####.png").string());
   EXPECT_EQ(scene.output.width, 640);
   EXPECT_EQ(scene.output.height, 512);
@@ -134,7 +134,7 @@ background = "transparent"
 }
 
 TEST_F(SceneFile, NumbersStandForNamesWhereAnIndexMay) {
-  const SceneSettings scene =
+  const config::SceneSettings scene =
       parse_after_model("clip = 2\nframes = 7\n[camera]\nname = 0\n[output]\nsize = [64, 32]\n");
   EXPECT_EQ(scene.model.clip, "2");
   EXPECT_EQ(scene.model.frames, "7");
@@ -291,7 +291,7 @@ eye = [0, 0, 0]
 
 TEST_F(SceneFile, MissingSceneIsBadInput) {
   try {
-    load_scene(in_folder("nope.toml"));
+    config::load_scene(in_folder("nope.toml"));
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::bad_input);
@@ -303,7 +303,7 @@ TEST_F(SceneFile, MissingSceneIsBadInput) {
 // ------------------------------------------------------------------------------------------
 
 // Every value of the settings, as text, in the order of the table.
-std::vector<std::string> values(const SceneSettings& scene) {
+std::vector<std::string> values(const config::SceneSettings& scene) {
   std::vector<std::string> all;
   for (const config::Key& key : config::keys()) {
     if (key.table != "model" || key.name != "path")
@@ -314,8 +314,8 @@ std::vector<std::string> values(const SceneSettings& scene) {
 
 // Field by field and by hand, so that a key whose `show` and `set` reach a wrong member together is found
 // too.
-void expect_defaults(const SceneSettings& scene) {
-  const SceneSettings fresh;
+void expect_defaults(const config::SceneSettings& scene) {
+  const config::SceneSettings fresh;
   EXPECT_EQ(scene.model.clip, fresh.model.clip);
   EXPECT_EQ(scene.model.frames_per_second, fresh.model.frames_per_second);
   EXPECT_EQ(scene.model.frames, fresh.model.frames);
@@ -380,15 +380,15 @@ void expect_defaults(const SceneSettings& scene) {
 }
 
 TEST_F(SceneFile, SceneOfInitMeansTheBareModel) {
-  const SceneSettings scene =
-      parse(scene_text("model.glb", {{"wrinkles.only", "Meshes here: \"a\", \"b\"."}}));
+  const config::SceneSettings scene =
+      parse(config::scene_text("model.glb", {{"wrinkles.only", "Meshes here: \"a\", \"b\"."}}));
   EXPECT_EQ(scene.model.path, in_folder("model.glb"));
   EXPECT_EQ(scene.output.path, in_folder("frames").string()) << "beside the scene";
   expect_defaults(scene);
 }
 
 TEST_F(SceneFile, UncommentingAKeyOfInitChangesNothing) {
-  std::string text = scene_text("model.glb");
+  std::string text = config::scene_text("model.glb");
   // "#key = value" is a key, "# words" a comment.
   text = std::regex_replace(text, std::regex("(^|\n)#([a-z_]+ = )"), "$1$2");
   for (const config::Key& key : config::keys()) {
@@ -399,17 +399,17 @@ TEST_F(SceneFile, UncommentingAKeyOfInitChangesNothing) {
 
 TEST_F(SceneFile, ShowAndSetAreInverse) {
   // Values that are no defaults, written by `show` and read back.
-  SceneSettings scene;
+  config::SceneSettings scene;
   scene.model.clip = "a \"quoted\" \\ name\twith a tab";
   scene.model.frames_per_second = 29.97;
   scene.model.frames = "1-9x2";
   scene.wrinkles.only = {"a", "ü"};
   scene.wrinkles.strength = 0.1;
   scene.wrinkles.seed = 4000000000U;
-  scene.relax.mode = RelaxMode::descent;
+  scene.relax.mode = config::RelaxMode::descent;
   scene.camera.focal_length = 1.0 / 3 + 50;
   scene.light.key_colour = {0.1F, 0.2F, 0.3F};
-  scene.shading.gradient = Gradient::paper;
+  scene.shading.gradient = config::Gradient::paper;
   scene.output.width = 17;
   scene.output.transparent = true;
   std::string text, table;
@@ -419,14 +419,14 @@ TEST_F(SceneFile, ShowAndSetAreInverse) {
     if (!path) text += key.name + " = " + key.kind.show(scene) + "\n";
     if (path && key.table == "model") text += "path = \"model.glb\"\n";
   }
-  SceneSettings back = parse(text);
+  config::SceneSettings back = parse(text);
   back.output.path = scene.output.path;
   EXPECT_EQ(values(back), values(scene));
 }
 
 TEST_F(SceneFile, GarmentsStandInPlaceOfAPath) {
   test::write_text(folder_ / "p.toml", "whatever is in it");
-  const SceneSettings scene =
+  const config::SceneSettings scene =
       parse("[model]\ngarment = \"p.toml\"\npieces = [\"a\", \"b\"]\nfabric = \"2e-6,3e5\"\n");
   EXPECT_EQ(scene.model.garment, in_folder("p.toml"));
   EXPECT_TRUE(scene.model.path.empty());
@@ -491,7 +491,8 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
 
 TEST_F(SceneFile, ReferenceIsWhatTheTableSays) {
   const std::string file = test::read_text(test::source_file("docs/scene.md"));
-  EXPECT_EQ(file, scene_reference_markdown()) << "make it anew: plisse init --keys-markdown > docs/scene.md";
+  EXPECT_EQ(file, config::scene_reference_markdown())
+      << "make it anew: plisse init --keys-markdown > docs/scene.md";
 }
 
 TEST_F(SceneFile, ReferenceHasEveryKey) {

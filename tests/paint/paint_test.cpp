@@ -19,8 +19,8 @@ namespace plisse::paint {
 namespace {
 
 using ::testing::HasSubstr;
-using Kind = PaintStroke::Kind;
-using Direction = PaintDirection::Kind;
+using Kind = config::PaintStroke::Kind;
+using Direction = config::PaintDirection::Kind;
 using test::Sheet;
 
 constexpr double spacing = 0.1;
@@ -30,8 +30,8 @@ Sheet flat_sheet() {
   return test::grid(9, 9, spacing, 0, 1);
 }
 
-PaintStroke stroke(Kind kind, double strength = 0.5) {
-  PaintStroke result;
+config::PaintStroke stroke(Kind kind, double strength = 0.5) {
+  config::PaintStroke result;
   result.place = "paint.toml:7:1";
   result.kind = kind;
   result.strength = strength;
@@ -39,13 +39,13 @@ PaintStroke stroke(Kind kind, double strength = 0.5) {
   return result;
 }
 
-PaintStroke line(const std::vector<glm::dvec3>& points, double strength = 0.5) {
-  PaintStroke result = stroke(Kind::surface, strength);
+config::PaintStroke line(const std::vector<glm::dvec3>& points, double strength = 0.5) {
+  config::PaintStroke result = stroke(Kind::surface, strength);
   result.points = points;
   return result;
 }
 
-PaintStroke with_vector(PaintStroke result, const glm::dvec3& vector) {
+config::PaintStroke with_vector(config::PaintStroke result, const glm::dvec3& vector) {
   result.direction = {Direction::vector, 0, vector};
   return result;
 }
@@ -55,13 +55,13 @@ Screen from_above(const std::vector<glm::dvec3>& positions) {
   return {glm::ortho(0.0, 0.8, 0.0, 0.8, -2.0, 2.0), 80, 80, positions};
 }
 
-std::vector<glm::dvec3> painted(const Sheet& sheet, const std::vector<PaintStroke>& strokes) {
+std::vector<glm::dvec3> painted(const Sheet& sheet, const std::vector<config::PaintStroke>& strokes) {
   const Canvas canvas{sheet.surface, sheet.rest,
-                      [&](const PaintStroke&) { return from_above(sheet.surface.rest); }};
+                      [&](const config::PaintStroke&) { return from_above(sheet.surface.rest); }};
   return paint(canvas, strokes);
 }
 
-std::string complaint(const Sheet& sheet, const PaintStroke& one) {
+std::string complaint(const Sheet& sheet, const config::PaintStroke& one) {
   return test::error_of([&] { painted(sheet, {one}); });
 }
 
@@ -85,11 +85,11 @@ TEST(Paint, ALineGathersAcrossItself) {
 TEST(Paint, TheSameLineOnScreenOnTheSurfaceAndInUv) {
   const Sheet sheet = flat_sheet();
   const auto expected = painted(sheet, {line({{0.1, 0.2, 0}, {0.5, 0.7, 0}})});
-  PaintStroke uv = stroke(Kind::uv), screen = stroke(Kind::screen);
+  config::PaintStroke uv = stroke(Kind::uv), screen = stroke(Kind::screen);
   uv.points = {{0.1, 0.2, 0}, {0.5, 0.7, 0}};
   screen.points = {{10, 60, 0}, {50, 10, 0}};  // y down, 100 pixels a metre
   screen.radius = 25;
-  for (const PaintStroke& other : {uv, screen}) {
+  for (const config::PaintStroke& other : {uv, screen}) {
     const auto bias = painted(sheet, {other});
     for (std::size_t v = 0; v < bias.size(); ++v) {
       const double difference =
@@ -101,8 +101,8 @@ TEST(Paint, TheSameLineOnScreenOnTheSurfaceAndInUv) {
 
 TEST(Paint, DirectionsAreAskedForInFourWays) {
   const Sheet sheet = flat_sheet();
-  const auto way = [&](Kind kind, const PaintDirection& direction) {
-    PaintStroke one = stroke(kind);
+  const auto way = [&](Kind kind, const config::PaintDirection& direction) {
+    config::PaintStroke one = stroke(kind);
     one.points = kind == Kind::screen ? std::vector<glm::dvec3>{{20, 40, 0}, {60, 40, 0}}
                                       : std::vector<glm::dvec3>{{0.2, 0.4, 0}, {0.6, 0.4, 0}};
     if (kind == Kind::screen) one.radius = 25;
@@ -125,12 +125,12 @@ TEST(Paint, DirectionsAreAskedForInFourWays) {
 // of 60° and squeezed to half by the pose, it is that of the rest pose all the same.
 TEST(Paint, AScreenDirectionIsBroughtBackToTheRestPose) {
   const Sheet sheet = flat_sheet();
-  PaintStroke one = stroke(Kind::screen);
+  config::PaintStroke one = stroke(Kind::screen);
   one.points = {{40, 40, 0}};
   one.radius = 60;
   one.direction = {Direction::angle, 45, {}};
   // Posed: x halved; then the screen's 45° are (1, 1) of the posed plane, M⁻¹ of it (2, 1).
-  const Canvas canvas{sheet.surface, sheet.rest, [&](const PaintStroke&) {
+  const Canvas canvas{sheet.surface, sheet.rest, [&](const config::PaintStroke&) {
                         return from_above(mapped(
                             sheet, [](const glm::dvec3& x) { return glm::dvec3(0.2 + 0.5 * x.x, x.y, 0); }));
                       }};
@@ -143,7 +143,7 @@ TEST(Paint, OnlyWhatIsSeenIsTouched) {
   // Two sheets, one 0.3 above the other; seen from above.
   Sheet sheet = test::grid(9, 9, spacing, 0, 1, 1, 2);
   for (std::size_t v = 81; v < 162; ++v) sheet.surface.rest[v].z = sheet.surface.bind[v].z = -0.3;
-  PaintStroke one = stroke(Kind::screen);
+  config::PaintStroke one = stroke(Kind::screen);
   one.points = {{20, 40, 0}, {60, 40, 0}};
   one.radius = 25;
   const auto bias = painted(sheet, {one});
@@ -161,8 +161,8 @@ TEST(Paint, TheFarSideOfASleeveIsNotTouched) {
 
 TEST(Paint, StrokesBlendAndStayBelowOne) {
   const Sheet sheet = flat_sheet();
-  PaintStroke dab = with_vector(line({{0.4, 0.4, 0}}, 0.9), {1, 0, 0});
-  std::vector<PaintStroke> strokes;
+  config::PaintStroke dab = with_vector(line({{0.4, 0.4, 0}}, 0.9), {1, 0, 0});
+  std::vector<config::PaintStroke> strokes;
   for (int i = 0; i < 20; ++i) {
     strokes.push_back(dab);
     for (const glm::dvec3& p : painted(sheet, strokes)) EXPECT_LE(glm::length(p), 0.9 + 1e-12);
@@ -171,7 +171,7 @@ TEST(Paint, StrokesBlendAndStayBelowOne) {
   strokes.push_back(with_vector(dab, {-1, 0, 0}));
   EXPECT_NEAR(glm::length(painted(sheet, strokes)[40]), 0.9, 1e-12);
   // A second stroke of weight w takes the place of that much of the first: p ← (1−w)p + w p₂.
-  PaintStroke other = with_vector(line({{0.4, 0.4, 0}}, 0.6), {0, 1, 0});
+  config::PaintStroke other = with_vector(line({{0.4, 0.4, 0}}, 0.6), {0, 1, 0});
   const std::size_t beside = 4 * 9 + 5;
   const double w = smooth(0.1 / 0.25);
   const glm::dvec3 p = painted(sheet, {dab, other})[beside];
@@ -181,14 +181,14 @@ TEST(Paint, StrokesBlendAndStayBelowOne) {
 
 TEST(Paint, EraseTakesItAwayAndSmoothEvensItOut) {
   const Sheet sheet = flat_sheet();
-  const PaintStroke fill = with_vector(stroke(Kind::fill), {1, 0, 0});
-  PaintStroke erase = stroke(Kind::fill, 1);
-  erase.mode = PaintStroke::Mode::erase;
+  const config::PaintStroke fill = with_vector(stroke(Kind::fill), {1, 0, 0});
+  config::PaintStroke erase = stroke(Kind::fill, 1);
+  erase.mode = config::PaintStroke::Mode::erase;
   for (const glm::dvec3& p : painted(sheet, {fill, erase})) EXPECT_EQ(p, glm::dvec3(0));
 
-  const PaintStroke dab = with_vector(line({{0.4, 0.4, 0}}), {0, 1, 0});
-  PaintStroke smooth = stroke(Kind::fill, 1);
-  smooth.mode = PaintStroke::Mode::smooth;
+  const config::PaintStroke dab = with_vector(line({{0.4, 0.4, 0}}), {0, 1, 0});
+  config::PaintStroke smooth = stroke(Kind::fill, 1);
+  smooth.mode = config::PaintStroke::Mode::smooth;
   const auto rough = painted(sheet, {dab}), once = painted(sheet, {dab, smooth});
   smooth.rounds = 200;
   const auto often = painted(sheet, {dab, smooth});
@@ -209,7 +209,7 @@ TEST(Paint, MasksLimitAStroke) {
   const auto half = static_cast<std::uint32_t>(sheet.surface.triangle_count() / 2);
   sheet.surface.parts = {{"lower", "cotton", -1, 0, half, true, true},
                          {"upper", "silk", -1, half, half, true, true}};
-  PaintStroke fill = with_vector(stroke(Kind::fill), {1, 0, 0});
+  config::PaintStroke fill = with_vector(stroke(Kind::fill), {1, 0, 0});
   fill.only = {"lower"};
   auto bias = painted(sheet, {fill});
   EXPECT_GT(bias[0].x, 0.4);
@@ -225,7 +225,7 @@ TEST(Paint, MasksLimitAStroke) {
 
 TEST(Paint, RandomFoldsAreAsManyAsAskedAndRepeat) {
   const Sheet sheet = flat_sheet();
-  PaintStroke random = stroke(Kind::random);
+  config::PaintStroke random = stroke(Kind::random);
   random.direction.kind = Direction::random;
   random.density = 1 / 0.64;  // one on the whole sheet
   random.length = 0.3;
@@ -253,7 +253,7 @@ TEST(Paint, APictureSaysHowMuch) {
   for (std::size_t i : {0U, 2U})
     image.rgba[4 * i] = image.rgba[4 * i + 1] = image.rgba[4 * i + 2] = 0;  // left: black
   io::write_png(folder / "amount.png", image);
-  PaintStroke one = with_vector(stroke(Kind::image), {0, 1, 0});
+  config::PaintStroke one = with_vector(stroke(Kind::image), {0, 1, 0});
   one.file = folder / "amount.png";
   const Sheet sheet = flat_sheet();
   const auto bias = painted(sheet, {one});
@@ -285,7 +285,7 @@ TEST(Paint, VertexColoursFromAnotherProgram) {
     for (std::size_t k = 3; k < 6; ++k) vertex.properties[k].values.push_back(i < 9 ? 255 : 0);
   }
   io::write_ply(folder / "colours.ply", {{}, {vertex}});
-  PaintStroke one = with_vector(stroke(Kind::colours), {1, 0, 0});
+  config::PaintStroke one = with_vector(stroke(Kind::colours), {1, 0, 0});
   one.file = folder / "colours.ply";
   one.up = "z";
   const auto bias = painted(sheet, {one});
@@ -298,7 +298,7 @@ TEST(Paint, SaysWhereAStrokeMisses) {
   const Sheet sheet = flat_sheet();
   EXPECT_THAT(complaint(sheet, line({{0.4, 0.4, 0}, {0.4, 0.4, 1}})),
               HasSubstr("paint.toml:7:1: the point [0.4, 0.4, 1] is off the mesh"));
-  PaintStroke one = stroke(Kind::screen);
+  config::PaintStroke one = stroke(Kind::screen);
   one.points = {{-10, -10, 0}, {-10, 90, 0}};
   EXPECT_THAT(complaint(sheet, one), HasSubstr("misses the mesh"));
   one = stroke(Kind::uv);
@@ -317,12 +317,12 @@ TEST(Paint, SaysWhereAStrokeMisses) {
 // A radius smaller than the mesh: the vertex nearest to the line, as with the paper's mouse.
 TEST(Paint, AFineLineTakesTheNearestVertices) {
   const Sheet sheet = flat_sheet();
-  PaintStroke fine = line({{0.21, 0.42, 0}, {0.6, 0.42, 0}});
+  config::PaintStroke fine = line({{0.21, 0.42, 0}, {0.6, 0.42, 0}});
   fine.radius = 0.01;
-  PaintStroke screen = stroke(Kind::screen);
+  config::PaintStroke screen = stroke(Kind::screen);
   screen.points = {{21, 38, 0}, {60, 38, 0}};
   screen.radius = 1;
-  for (const PaintStroke& one : {fine, screen}) {
+  for (const config::PaintStroke& one : {fine, screen}) {
     const auto bias = painted(sheet, {one});
     for (std::size_t v = 0; v < bias.size(); ++v) {
       const bool on_it = v / 9 == 4 && v % 9 >= 2 && v % 9 <= 6;

@@ -10,7 +10,7 @@
 #include "base/colour.h"
 #include "config/scene_file.h"
 #include "io/image.h"
-#include "pipeline.h"
+#include "pipeline/render.h"
 #include "support/files.h"
 #include "support/opengl.h"
 
@@ -19,9 +19,9 @@ namespace {
 
 class Aovs : public test::DriverTest {
  protected:
-  RenderReport drawn(bool transparent) const {
-    RenderRequest request;
-    request.scene = load_scene(test::asset("sleeve.toml"));
+  pipeline::RenderReport drawn(bool transparent) const {
+    pipeline::RenderRequest request;
+    request.scene = config::load_scene(test::asset("sleeve.toml"));
     request.scene.model.loop = false;
     request.scene.model.frames = "20";
     request.scene.output.width = 96;
@@ -29,7 +29,7 @@ class Aovs : public test::DriverTest {
     request.scene.output.transparent = transparent;
     request.scene.output.path = (folder_ / "f_##.png").string();
     request.aovs = {"beauty", "object", "depth"};
-    return render(request, {});
+    return pipeline::render(request, {});
   }
   // Four values a pixel; one channel is spread over red, green, blue.
   std::vector<float> exr(const std::string& name) const {
@@ -69,7 +69,7 @@ TEST_F(Aovs, BeautyIsTheFrameInLinearLight) {
 }
 
 TEST_F(Aovs, ObjectsAreTheReportsParts) {
-  const RenderReport report = drawn(false);
+  const pipeline::RenderReport report = drawn(false);
   ASSERT_EQ(report.objects.size(), 3U);
   std::set<std::string> materials;
   for (const auto& object : report.objects) materials.insert(object.material);

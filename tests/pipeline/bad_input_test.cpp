@@ -63,7 +63,7 @@ class BadInput : public ::testing::Test {
   // Writes the files and loads scene.toml, as every command does first.
   std::string load(const Files& files) {
     for (const auto& [name, text] : files) test::write_text(folder_ / name, text);
-    return test::error_of([&] { LoadedScene scene(load_scene(folder_ / "scene.toml")); });
+    return test::error_of([&] { pipeline::LoadedScene scene(config::load_scene(folder_ / "scene.toml")); });
   }
   test::TemporaryFolder folder_;
 };

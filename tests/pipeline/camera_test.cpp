@@ -11,16 +11,16 @@ namespace plisse::pipeline {
 namespace {
 
 // The elevation in degrees of the camera that is fitted to a box of this height on a 2 m × 1 m ground.
-double elevation_over(double height, double given = CameraSettings::from_the_shape) {
+double elevation_over(double height, double given = config::CameraSettings::from_the_shape) {
   const test::TemporaryFolder folder;
   std::string text;
   for (const double y : {0.0, height})
     text += fmt::format("v -1 {0} -0.5\nv 1 {0} -0.5\nv 1 {0} 0.5\nv -1 {0} 0.5\n", y);
   test::write_text(folder / "box.obj", text + "f 1 2 3 4\nf 5 6 7 8\n");
-  SceneSettings settings;
+  config::SceneSettings settings;
   settings.model.path = folder / "box.obj";
   settings.camera.elevation = given;
-  const CameraSettings camera = LoadedScene(settings).settings.camera;
+  const config::CameraSettings camera = pipeline::LoadedScene(settings).settings.camera;
   const glm::dvec3 toward = glm::normalize(camera.eye - camera.target);
   return glm::degrees(std::asin(toward.y));
 }

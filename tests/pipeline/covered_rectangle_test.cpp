@@ -9,6 +9,7 @@
 #include "gpu/timer.h"
 #include "passes/render.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/look.h"
 #include "pipeline/stepper.h"
 #include "support/files.h"
 #include "support/opengl.h"
@@ -31,17 +32,19 @@ class CoveredRectangle : public test::OpenGlTest, public ::testing::WithParamInt
 
 TEST_P(CoveredRectangle, DoesNotShow) {
   const Setting& setting = GetParam();
-  SceneSettings settings = load_scene(test::asset(setting.scene + std::string(".toml")).string());
+  config::SceneSettings settings =
+      config::load_scene(test::asset(setting.scene + std::string(".toml")).string());
   settings.model.loop = false;
   settings.output.width = 230;  // no multiple of the driver's tiles
   settings.output.height = 170;
   settings.output.transparent = setting.transparent;
   settings.shading.wireframe = setting.wireframe;
   settings.camera.eye += setting.nearer * (settings.camera.target - settings.camera.eye);
-  LoadedScene scene(settings);
+  pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);
-  Stepper stepper(scene, timer, "");
-  passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+  pipeline::Stepper stepper(scene, timer, "");
+  passes::RenderPass pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+                          pipeline::texture_levels(scene), "");
   const gpu::Target whole(230, 170, 4, gpu::Target::Format::srgb8),
       part(230, 170, 4, gpu::Target::Format::srgb8);
   for (int frame : {1, 12, 24}) {

@@ -8,6 +8,7 @@
 #include "config/scene_file.h"
 #include "passes/displacement.h"
 #include "pipeline/history.h"
+#include "pipeline/look.h"
 #include "support/files.h"
 #include "support/opengl.h"
 
@@ -33,7 +34,7 @@ std::vector<glm::dvec3> geometric_normals(const Subdivision& mesh, const Displac
 // The same by the pass: what it wrote is read back.
 DisplacedSurface moved_by_the_pass(History& run, const Subdivision& mesh) {
   passes::SurfaceBuffers buffers(run.scene.surface(), mesh);
-  const passes::Look look = run.scene.look();
+  const passes::Look look = pipeline::look_of(run.scene);
   passes::DisplacementPass pass(mesh, run.scene.profile, look.smooth_blend, look.field, look.cavity, "");
   pass.run(run.stepper.surface(), buffers);
   DisplacedSurface result;
@@ -48,9 +49,9 @@ DisplacedSurface moved_by_the_pass(History& run, const Subdivision& mesh) {
 
 // Squeezed to 75 and 50 %, waves of .16536 and .21651 W along x (wrinkle-passes.md, "Ground truth").
 TEST_F(Displace, TheSquareRisesAsTheClosedFormSays) {
-  History run(load_scene(test::asset("square.toml")));
+  History run(config::load_scene(test::asset("square.toml")));
   const double W = run.scene.wavelength() / run.scene.units.metres;
-  const Displacement displacement(run.scene, subdivide(run.scene.surface(), 16));
+  const pipeline::Displacement displacement(run.scene, subdivide(run.scene.surface(), 16));
   for (const auto& [frame, height] : {std::pair(49, 0.16536), std::pair(73, 0.21651)}) {
     run.at(frame);
     for (const bool by_the_pass : {false, true}) {
@@ -79,15 +80,15 @@ TEST_F(Displace, TheSquareRisesAsTheClosedFormSays) {
 // surface.
 TEST_F(Displace, ThePassAgreesWithTheReferenceSlow) {
   for (const char* variant : {"plain", "accordion", "fine", "linear"}) {
-    SceneSettings settings = load_scene(test::asset("sleeve.toml"));
+    config::SceneSettings settings = config::load_scene(test::asset("sleeve.toml"));
     const std::string name = variant;
     if (name == "accordion") settings.wrinkles.profile = "accordion";
     if (name == "fine") settings.wrinkles.fine = 3;
-    if (name == "linear") settings.shading.blend = Blend::linear;
+    if (name == "linear") settings.shading.blend = config::Blend::linear;
     History run(settings);
     run.at(37);
-    const Subdivision mesh = split_as_needed(run.scene);
-    const DisplacedSurface expected = Displacement(run.scene, mesh).at(run.stepper.surface()),
+    const Subdivision mesh = pipeline::split_as_needed(run.scene);
+    const DisplacedSurface expected = pipeline::Displacement(run.scene, mesh).at(run.stepper.surface()),
                            surface = moved_by_the_pass(run, mesh);
     const double W = run.scene.wavelength() / run.scene.units.metres;
     double place = 0, relief = 0, normal = 0;
@@ -109,10 +110,10 @@ TEST_F(Displace, ThePassAgreesWithTheReferenceSlow) {
 }
 
 TEST_F(Displace, OnlyClothThatWavesIsSplit) {
-  SceneSettings settings = load_scene(test::asset("sleeve.toml"));
+  config::SceneSettings settings = config::load_scene(test::asset("sleeve.toml"));
   settings.wrinkles.irregularity = 0;
-  const LoadedScene everywhere(settings);
-  const Subdivision needed = split_as_needed(everywhere);
+  const pipeline::LoadedScene everywhere(settings);
+  const Subdivision needed = pipeline::split_as_needed(everywhere);
   const std::size_t evenly = everywhere.surface().triangle_count() << 2 * levels_for(everywhere);
   EXPECT_LT(needed.triangle_count(), evenly);
   // No edge of a wave has fewer than eight segments.
@@ -132,19 +133,21 @@ TEST_F(Displace, OnlyClothThatWavesIsSplit) {
   }
   // A part that is left out stays as it is; pictures of a few pixels need little.
   settings.wrinkles.strength = 0;
-  EXPECT_EQ(split_as_needed(LoadedScene(settings)).triangle_count(), surface.triangle_count());
+  EXPECT_EQ(pipeline::split_as_needed(pipeline::LoadedScene(settings)).triangle_count(),
+            surface.triangle_count());
   settings.wrinkles.strength = 1;
   settings.output.width = 32;
   settings.output.height = 24;
-  EXPECT_LT(split_as_needed(LoadedScene(settings)).triangle_count(), needed.triangle_count() / 8);
+  EXPECT_LT(pipeline::split_as_needed(pipeline::LoadedScene(settings)).triangle_count(),
+            needed.triangle_count() / 8);
 }
 
 TEST_F(Displace, NormalsAreThoseOfTheFineMeshAndConvergeToThem) {
-  History run(load_scene(test::asset("square.toml")));
+  History run(config::load_scene(test::asset("square.toml")));
   run.at(49);
   double last = 10;
   for (const int levels : {4, 5, 6}) {
-    const Displacement displacement(run.scene, subdivide(run.scene.surface(), 1 << levels));
+    const pipeline::Displacement displacement(run.scene, subdivide(run.scene.surface(), 1 << levels));
     const DisplacedSurface surface = displacement.at(run.stepper.surface());
     const auto geometric = geometric_normals(displacement.mesh(), surface);
     double sum = 0;
@@ -158,15 +161,15 @@ TEST_F(Displace, NormalsAreThoseOfTheFineMeshAndConvergeToThem) {
 }
 
 TEST_F(Displace, LevelsFollowTheWaves) {
-  SceneSettings settings = load_scene(test::asset("square.toml"));
-  const int levels = levels_for(LoadedScene(settings));
+  config::SceneSettings settings = config::load_scene(test::asset("square.toml"));
+  const int levels = levels_for(pipeline::LoadedScene(settings));
   for (const int finer : {1, 2}) {
-    SceneSettings shorter = settings;
+    config::SceneSettings shorter = settings;
     shorter.wrinkles.wavelength = settings.wrinkles.wavelength / (1 << finer);
-    EXPECT_EQ(levels_for(LoadedScene(shorter)), levels + finer);
+    EXPECT_EQ(levels_for(pipeline::LoadedScene(shorter)), levels + finer);
   }
   settings.wrinkles.strength = 0;
-  EXPECT_EQ(levels_for(LoadedScene(settings)), 0);
+  EXPECT_EQ(levels_for(pipeline::LoadedScene(settings)), 0);
 }
 
 }  // namespace

@@ -9,11 +9,13 @@
 #include <set>
 
 #include "config/scene_file.h"
+#include "config/settings.h"
 #include "io/wrinkle_field.h"
-#include "pipeline.h"
 #include "pipeline/displace.h"
 #include "pipeline/history.h"
 #include "pipeline/outside.h"
+#include "pipeline/render.h"
+#include "pipeline/verify.h"
 #include "support/errors.h"
 #include "support/files.h"
 #include "support/opengl.h"
@@ -28,7 +30,7 @@ constexpr int side = 9;
 constexpr double edge = 0.05, length = edge * (side - 1), a = 0.004;
 
 // Every edge halved so often.
-Displacement halved(const LoadedScene& scene, int levels) {
+pipeline::Displacement halved(const pipeline::LoadedScene& scene, int levels) {
   return {scene, subdivide(scene.surface(), 1 << levels)};
 }
 
@@ -71,19 +73,19 @@ class CarriedFields : public test::OpenGlTest {
     }
   }
 
-  SceneSettings scene(const std::string& bias) const {
-    return parse_scene("[model]\npath = \"sheet_#.obj\"\n[wrinkles]\nwavelength = 0.06\n" + bias,
-                       folder_ / "scene.toml");
+  config::SceneSettings scene(const std::string& bias) const {
+    return config::parse_scene("[model]\npath = \"sheet_#.obj\"\n[wrinkles]\nwavelength = 0.06\n" + bias,
+                               folder_ / "scene.toml");
   }
   std::string complaint(const std::string& bias) const {
-    return test::error_of([&] { LoadedScene loaded(scene(bias)); });
+    return test::error_of([&] { pipeline::LoadedScene loaded(scene(bias)); });
   }
 
   test::TemporaryFolder folder_;
 };
 
 // Heights of a moment's geometry, metres.
-std::vector<double> heights(const LoadedScene& scene, const DisplacedSurface& surface) {
+std::vector<double> heights(const pipeline::LoadedScene& scene, const DisplacedSurface& surface) {
   std::vector<double> result;
   for (const glm::dvec4& relief : surface.relief) result.push_back(scene.units.metres * relief.x);
   return result;
@@ -96,7 +98,7 @@ TEST_F(CarriedFields, TheAnimationsOwnWavesLieOnTop) {
   for (const int frame : {1, 3}) {
     const auto plain = bare.at(frame), carried = with.at(frame);
     EXPECT_EQ(plain.height, carried.height);  // crush and relax know nothing of what is carried
-    const Displacement without_field = halved(bare.scene, 4), with_field = halved(with.scene, 4);
+    const pipeline::Displacement without_field = halved(bare.scene, 4), with_field = halved(with.scene, 4);
     const DisplacedSurface moved = with_field.at(with.stepper.surface());
     const auto own = heights(bare.scene, without_field.at(bare.stepper.surface())),
                both = heights(with.scene, moved);
@@ -120,7 +122,7 @@ TEST_F(CarriedFields, EveryFrameHasItsOwnAndNoWavesBesides) {
   History run(scene(bias));
   // Seven waves on eight edges in the last frame, and eight segments a wave: 2³ on an edge.
   EXPECT_EQ(levels_for(run.scene), 3);
-  const Displacement displacement = halved(run.scene, 3);
+  const pipeline::Displacement displacement = halved(run.scene, 3);
   std::set<std::string> hashes;
   for (int frame = 1; frame <= 3; ++frame) {
     hashes.insert(run.scene.frame_hash(frame, {}));
@@ -170,12 +172,12 @@ TEST_F(CarriedFields, AMissingOrForeignFieldIsNamed) {
 TEST_F(CarriedFields, StrengthAndSelectionCountForThemToo) {
   write_sheets(1);
   io::write_wrinkle_field(folder_ / "field.ply", field(1, a, 5));
-  SceneSettings settings = scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n");
+  config::SceneSettings settings = scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n");
   for (const double strength : {0.0, 0.5, 2.0}) {
     settings.wrinkles.strength = strength;
     History run(settings);
     run.at(1);
-    const Displacement displacement = halved(run.scene, 5);
+    const pipeline::Displacement displacement = halved(run.scene, 5);
     const auto height = heights(run.scene, displacement.at(run.stepper.surface()));
     EXPECT_NEAR(*std::max_element(height.begin(), height.end()), strength * a, 1e-3 * a);
   }
@@ -188,7 +190,7 @@ TEST_F(CarriedFields, AlongAWaveClothIsStretchedEvenly) {
   io::write_wrinkle_field(folder_ / "field.ply", field(1, a, 5));
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement = halved(run.scene, 6);
+  const pipeline::Displacement displacement = halved(run.scene, 6);
   const DisplacedSurface moved = displacement.at(run.stepper.surface());
   const double steepness = a * 2 * pi * 5 / length;  // aω = .314
   double least = 10, most = 0;
@@ -217,7 +219,7 @@ TEST_F(CarriedFields, SteepWavesKeepClothInOrder) {
     io::write_wrinkle_field(folder_ / "field.ply", field(1, high, 5));
     History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
     run.at(1);
-    const Displacement displacement = halved(run.scene, 6);
+    const pipeline::Displacement displacement = halved(run.scene, 6);
     const DisplacedSurface moved = displacement.at(run.stepper.surface());
     const auto& mesh = displacement.mesh();
     double backward = 0, forward = 0;  // of steps along x, in their length
@@ -241,10 +243,10 @@ TEST_F(CarriedFields, TheShaderMovesSteepWavesAsTheReferenceDoes) {
   write_sheets(1);
   for (const double steepness : {1.5, 3.0, 30.0}) {
     io::write_wrinkle_field(folder_ / "field.ply", field(1, steepness * length / (2 * pi * 5), 5));
-    RenderRequest request;
+    pipeline::RenderRequest request;
     request.scene = scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n");
     request.scene.output.width = request.scene.output.height = 64;
-    const VerifyReport report = verify(request, {});
+    const pipeline::VerifyReport report = pipeline::verify(request, {});
     for (const char* part : {"displacement", "displacement.relief", "displacement.normal"}) {
       ASSERT_TRUE(report.passes.contains(part)) << part;
       EXPECT_TRUE(report.passes.at(part).ok) << part << " " << steepness;
@@ -270,10 +272,10 @@ TEST_F(CarriedFields, ClothStaysOutOfABody) {
   test::write_text(folder_ / "body.obj", box(top));
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement = halved(run.scene, 5);
+  const pipeline::Displacement displacement = halved(run.scene, 5);
   const DisplacedSurface free = displacement.at(run.stepper.surface());
   DisplacedSurface held = free;
-  Outside outside(run.scene, folder_ / "body.obj");
+  pipeline::Outside outside(run.scene, folder_ / "body.obj");
   outside.hold(1, displacement.mesh(), held);
   const double unit = run.scene.units.metres;
   std::size_t cut = 0;
@@ -304,10 +306,10 @@ TEST_F(CarriedFields, WhatLiesInABodyIsNotCarriedDeeper) {
   test::write_text(folder_ / "body.obj", box(0.1 * a));  // the sheet lies in it
   History run(scene("[bias]\nfield = \"field.ply\"\nuse = \"direct\"\n"));
   run.at(1);
-  const Displacement displacement = halved(run.scene, 4);
+  const pipeline::Displacement displacement = halved(run.scene, 4);
   const DisplacedSurface free = displacement.at(run.stepper.surface());
   DisplacedSurface held = free;
-  Outside(run.scene, folder_ / "body.obj").hold(1, displacement.mesh(), held);
+  pipeline::Outside(run.scene, folder_ / "body.obj").hold(1, displacement.mesh(), held);
   for (std::size_t i = 0; i < held.positions.size(); ++i) {
     const bool upward = free.positions[i].z >= free.base[i].z;
     EXPECT_EQ(held.positions[i], upward ? free.positions[i] : free.base[i]);
@@ -316,14 +318,14 @@ TEST_F(CarriedFields, WhatLiesInABodyIsNotCarriedDeeper) {
 
 TEST_F(CarriedFields, ABodyIsAFileOrAPartOfTheModel) {
   write_sheets(2);
-  LoadedScene loaded(scene(""));
-  const std::string unknown = test::error_of([&] { Outside(loaded, "shet"); });
+  pipeline::LoadedScene loaded(scene(""));
+  const std::string unknown = test::error_of([&] { pipeline::Outside(loaded, "shet"); });
   EXPECT_THAT(unknown, HasSubstr("--outside shet: there is no such file, and the model has no such mesh"));
   for (int frame = 1; frame <= 3; ++frame)
     test::write_text(folder_ / fmt::format("body_{}.obj", frame), box(-0.1));
   write_sheets(4);
-  LoadedScene longer(scene(""));
-  EXPECT_THAT(test::error_of([&] { Outside(longer, folder_ / "body_#.obj"); }),
+  pipeline::LoadedScene longer(scene(""));
+  EXPECT_THAT(test::error_of([&] { pipeline::Outside(longer, folder_ / "body_#.obj"); }),
               HasSubstr("has 3 frames, the clip has 4"));
 }
 

@@ -83,7 +83,7 @@ struct Worst {
   }
 };
 
-Worst over_the_clip(const SceneSettings& settings, int stride = 1) {
+Worst over_the_clip(const config::SceneSettings& settings, int stride = 1) {
   History history(settings);
   Worst worst;
   const int last = history.scene.animation.timeline().frame_count;
@@ -114,20 +114,20 @@ void expect_steady(const std::string& name, const Worst& worst) {
 }
 
 TEST_F(Flicker, TheSleevesWrinklesTravelWithTheCloth) {
-  expect_steady("sleeve", over_the_clip(load_scene(test::asset("sleeve.toml"))));
+  expect_steady("sleeve", over_the_clip(config::load_scene(test::asset("sleeve.toml"))));
 }
 
 TEST_F(Flicker, SoDoThoseOfTheShirtAndTheCurtain) {
   for (const std::string name : {"shirt", "curtain"}) {
-    expect_steady(name, over_the_clip(load_scene(test::asset(name + ".toml"))));
+    expect_steady(name, over_the_clip(config::load_scene(test::asset(name + ".toml"))));
   }
 }
 
 // The measure must be able to fail: what is compared here is the same clip with new phases for every frame.
 TEST_F(Flicker, PhasesThatStartAnewWouldNotPass) {
-  SceneSettings settings = load_scene(test::asset("sleeve.toml"));
+  config::SceneSettings settings = config::load_scene(test::asset("sleeve.toml"));
   settings.model.loop = false;
-  settings.relax.mode = RelaxMode::descent;
+  settings.relax.mode = config::RelaxMode::descent;
   Worst worst;
   double least = 1e9;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
@@ -150,7 +150,7 @@ TEST_F(Flicker, PhasesThatStartAnewWouldNotPass) {
 // ones back.
 TEST_F(Flicker, HeightsAndDirectionsOfALoopClose) {
   for (const std::string name : {"sleeve", "shirt"}) {
-    History history(load_scene(test::asset(name + ".toml")));
+    History history(config::load_scene(test::asset(name + ".toml")));
     const Readings first = history.at(1), second = history.at(2);
     const Readings last = history.at(history.scene.animation.timeline().frame_count);
     double seam = 0, step = 0, turned = 0, count = 0;
@@ -172,7 +172,7 @@ TEST_F(Flicker, HeightsAndDirectionsOfALoopClose) {
 // near random phases' 1.81.
 TEST_F(Flicker, PhasesOfALoopClose) {
   for (const std::string name : {"sleeve", "shirt"}) {
-    History history(load_scene(test::asset(name + ".toml")));
+    History history(config::load_scene(test::asset(name + ".toml")));
     Readings first = history.at(1);
     const Readings last = history.at(history.scene.animation.timeline().frame_count);
     for (std::size_t v = 0; v < first.phase.size(); ++v) {
@@ -191,7 +191,7 @@ TEST_F(Flicker, PhasesOfALoopClose) {
 // Directions taken over at onset gave the curtain .016 where its first period had .001.
 TEST_F(Flicker, TheSecondPeriodIsLaidAsWellAsTheFirst) {
   for (const std::string name : {"curtain", "shirt", "sleeve", "zeppelin"}) {
-    SceneSettings settings = load_scene(test::asset(name + ".toml"));
+    config::SceneSettings settings = config::load_scene(test::asset(name + ".toml"));
     settings.wrinkles.irregularity = 0;
     const auto misfit = [&](bool loop) {
       settings.model.loop = loop;

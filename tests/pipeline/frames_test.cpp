@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "config/scene_file.h"
-#include "pipeline.h"
+#include "pipeline/render.h"
 #include "support/files.h"
 #include "support/gltf.h"
 #include "support/opengl.h"
@@ -21,9 +21,9 @@ using test::TemporaryFolder;
 class Frames : public test::DriverTest {};
 
 // The sleeve, small.
-RenderRequest small_sleeve(const std::filesystem::path& folder, const std::string& frames) {
-  RenderRequest request;
-  request.scene = load_scene(test::asset("sleeve.toml"));
+pipeline::RenderRequest small_sleeve(const std::filesystem::path& folder, const std::string& frames) {
+  pipeline::RenderRequest request;
+  request.scene = config::load_scene(test::asset("sleeve.toml"));
   request.scene.output.width = 64;
   request.scene.output.height = 48;
   request.scene.output.path = folder.string();
@@ -42,8 +42,8 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& folder, int numb
   return bytes;
 }
 
-RenderReport run(const RenderRequest& request) {
-  return render(request, {});
+pipeline::RenderReport run(const pipeline::RenderRequest& request) {
+  return pipeline::render(request, {});
 }
 
 // The sleeve with another texture.
@@ -68,7 +68,7 @@ class FrameIdentity : public Frames, public ::testing::WithParamInterface<Varian
 TEST_P(FrameIdentity, AloneInChunksAndInAWholeRun) {
   const TemporaryFolder whole, alone, chunks;
   const auto request = [&](const TemporaryFolder& folder, const std::string& frames) {
-    RenderRequest result = small_sleeve(folder.path(), frames);
+    pipeline::RenderRequest result = small_sleeve(folder.path(), frames);
     result.scene.model.loop = GetParam().loop;
     result.scene.relax.interval = GetParam().interval;
     return result;
@@ -90,7 +90,7 @@ TEST_F(Frames, AStateFileGoesOnWhereItStoppedSlow) {
   const TemporaryFolder whole, parts;
   run(small_sleeve(whole.path(), "1-24"));
   const auto go_on = [&](const std::string& frames) {
-    RenderRequest request = small_sleeve(parts.path(), frames);
+    pipeline::RenderRequest request = small_sleeve(parts.path(), frames);
     request.state_file = (parts / "sleeve.state").string();
     return run(request);
   };
@@ -107,7 +107,7 @@ TEST_F(Frames, AStateFileGoesOnWhereItStoppedSlow) {
   const std::string good = test::read_text(parts / "sleeve.state");
   std::string damaged = good;
   damaged[good.size() / 2] = static_cast<char>(damaged[good.size() / 2] ^ 1);
-  RenderRequest other = small_sleeve(parts.path(), "1-8");
+  pipeline::RenderRequest other = small_sleeve(parts.path(), "1-8");
   other.scene.wrinkles.seed = 99;
   other.state_file = (parts / "other.state").string();
   run(other);
@@ -123,15 +123,15 @@ TEST_F(Frames, AStateFileGoesOnWhereItStoppedSlow) {
 
 TEST_F(Frames, SkipExistingTrustsOnlyWholeFramesOfTheSameScene) {
   const TemporaryFolder folder;
-  RenderRequest request = small_sleeve(folder.path(), "1-6");
+  pipeline::RenderRequest request = small_sleeve(folder.path(), "1-6");
   request.scene.model.loop = false;
   run(request);
   std::vector<std::vector<std::uint8_t>> good;
   for (int n = 1; n <= 6; ++n) good.push_back(bytes_of(folder.path(), n));
   request.skip_existing = true;
-  const auto rendered_again = [&](const RenderRequest& with) {
+  const auto rendered_again = [&](const pipeline::RenderRequest& with) {
     std::vector<int> frames;
-    for (const FrameReport& report : run(with).frames) {
+    for (const pipeline::FrameReport& report : run(with).frames) {
       if (!report.skipped) frames.push_back(report.frame);
     }
     return frames;
@@ -154,7 +154,7 @@ TEST_F(Frames, SkipExistingTrustsOnlyWholeFramesOfTheSameScene) {
     EXPECT_EQ(bytes_of(folder.path(), n), good[static_cast<std::size_t>(n - 1)]) << n;
 
   // One frame of another look among them.
-  RenderRequest other = small_sleeve(folder.path(), "3");
+  pipeline::RenderRequest other = small_sleeve(folder.path(), "3");
   other.scene.model.loop = false;
   other.scene.shading.roughness = 0.4;
   run(other);
@@ -167,34 +167,35 @@ TEST_F(Frames, SkipExistingTrustsOnlyWholeFramesOfTheSameScene) {
 // meets a frame that is trusted until then.
 TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixelSlow) {
   const TemporaryFolder folder;
-  RenderRequest request = small_sleeve(folder.path(), "2");
+  pipeline::RenderRequest request = small_sleeve(folder.path(), "2");
   request.scene.model.loop = false;
   request.skip_existing = true;
-  const auto rendered_again = [&](const RenderRequest& with) {
+  const auto rendered_again = [&](const pipeline::RenderRequest& with) {
     int count = 0;
-    for (const FrameReport& report : run(with).frames) count += report.skipped ? 0 : 1;
+    for (const pipeline::FrameReport& report : run(with).frames) count += report.skipped ? 0 : 1;
     return count;
   };
-  using Alteration = std::function<void(RenderRequest&)>;
+  using Alteration = std::function<void(pipeline::RenderRequest&)>;
   const std::vector<std::pair<std::string, Alteration>> alterations = {
-      {"strength", [](RenderRequest& r) { r.scene.wrinkles.strength = 0.5; }},
-      {"seed", [](RenderRequest& r) { r.scene.wrinkles.seed = 5; }},
-      {"profile", [](RenderRequest& r) { r.scene.wrinkles.profile = "accordion"; }},
-      {"wavelength", [](RenderRequest& r) { r.scene.wrinkles.wavelength *= 1.01; }},
-      {"rounds", [](RenderRequest& r) { r.scene.relax.rounds = 2; }},
-      {"loop", [](RenderRequest& r) { r.scene.model.loop = true; }},
-      {"samples", [](RenderRequest& r) { r.scene.output.samples = 1; }},
-      {"background", [](RenderRequest& r) { r.scene.output.background.x *= 0.9F; }},
-      {"ground", [](RenderRequest& r) { r.scene.output.ground = !r.scene.output.ground; }},
-      {"key light", [](RenderRequest& r) { r.scene.light.key_intensity = 1; }},
-      {"focal length", [](RenderRequest& r) { r.scene.camera.focal_length = 80; }},
-      {"roughness", [](RenderRequest& r) { r.scene.shading.roughness = 0.4; }},
-      {"texture", [&](RenderRequest& r) { r.scene.model.path = other_print(folder.path() / "print.glb"); }},
+      {"strength", [](pipeline::RenderRequest& r) { r.scene.wrinkles.strength = 0.5; }},
+      {"seed", [](pipeline::RenderRequest& r) { r.scene.wrinkles.seed = 5; }},
+      {"profile", [](pipeline::RenderRequest& r) { r.scene.wrinkles.profile = "accordion"; }},
+      {"wavelength", [](pipeline::RenderRequest& r) { r.scene.wrinkles.wavelength *= 1.01; }},
+      {"rounds", [](pipeline::RenderRequest& r) { r.scene.relax.rounds = 2; }},
+      {"loop", [](pipeline::RenderRequest& r) { r.scene.model.loop = true; }},
+      {"samples", [](pipeline::RenderRequest& r) { r.scene.output.samples = 1; }},
+      {"background", [](pipeline::RenderRequest& r) { r.scene.output.background.x *= 0.9F; }},
+      {"ground", [](pipeline::RenderRequest& r) { r.scene.output.ground = !r.scene.output.ground; }},
+      {"key light", [](pipeline::RenderRequest& r) { r.scene.light.key_intensity = 1; }},
+      {"focal length", [](pipeline::RenderRequest& r) { r.scene.camera.focal_length = 80; }},
+      {"roughness", [](pipeline::RenderRequest& r) { r.scene.shading.roughness = 0.4; }},
+      {"texture",
+       [&](pipeline::RenderRequest& r) { r.scene.model.path = other_print(folder.path() / "print.glb"); }},
   };
   rendered_again(request);
   for (const auto& [name, alter] : alterations) {
     ASSERT_EQ(rendered_again(request), 0) << "before " << name;
-    RenderRequest altered = request;
+    pipeline::RenderRequest altered = request;
     alter(altered);
     EXPECT_EQ(rendered_again(altered), 1) << name;
     EXPECT_EQ(rendered_again(request), 1) << "after " << name;
@@ -203,7 +204,7 @@ TEST_F(Frames, SkipExistingKnowsWhateverDecidesAPixelSlow) {
 
 TEST_F(Frames, SkipExistingTrustsDataPicturesAndShadersToo) {
   const TemporaryFolder folder, shaders;
-  RenderRequest request = small_sleeve(folder.path(), "2");
+  pipeline::RenderRequest request = small_sleeve(folder.path(), "2");
   request.scene.model.loop = false;
   request.aovs = {"height"};
   run(request);
@@ -228,7 +229,7 @@ TEST_F(Frames, SkipExistingTrustsDataPicturesAndShadersToo) {
 
 TEST_F(Frames, NothingElseIsLeftInTheFolder) {
   const TemporaryFolder folder;
-  RenderRequest request = small_sleeve(folder.path() / "deep" / "er", "1-3");
+  pipeline::RenderRequest request = small_sleeve(folder.path() / "deep" / "er", "1-3");
   request.scene.model.loop = false;
   request.aovs = {"height", "normal"};
   run(request);
@@ -240,9 +241,9 @@ TEST_F(Frames, NothingElseIsLeftInTheFolder) {
 TEST_F(Frames, AFolderThatCannotBeMadeIsNoOutput) {
   const TemporaryFolder folder;
   test::write_text(folder / "file", "in the way");
-  RenderRequest request = small_sleeve(folder / "file" / "frames", "1");
+  pipeline::RenderRequest request = small_sleeve(folder / "file" / "frames", "1");
   request.scene.model.loop = false;
-  const RenderReport report = run(request);
+  const pipeline::RenderReport report = run(request);
   EXPECT_EQ(report.outcome, ExitCode::no_output);
   EXPECT_THAT(report.failure, ::testing::HasSubstr("file"));
   ASSERT_EQ(report.frames.size(), 1U);
@@ -253,19 +254,20 @@ TEST_F(Frames, AFolderThatCannotBeMadeIsNoOutput) {
 
 TEST_F(Frames, TheReportCountsThem) {
   const TemporaryFolder folder;
-  RenderRequest request = small_sleeve(folder.path(), "1-9x4");
+  pipeline::RenderRequest request = small_sleeve(folder.path(), "1-9x4");
   int calls = 0;
-  const RenderReport report = render(request, [&](int done, int total, const FrameReport& entry) {
-    EXPECT_EQ(done, ++calls);
-    EXPECT_EQ(total, 3);
-    EXPECT_EQ(entry.error, "");
-  });
+  const pipeline::RenderReport report =
+      pipeline::render(request, [&](int done, int total, const pipeline::FrameReport& entry) {
+        EXPECT_EQ(done, ++calls);
+        EXPECT_EQ(total, 3);
+        EXPECT_EQ(entry.error, "");
+      });
   EXPECT_EQ(calls, 3);
   EXPECT_EQ(report.welded_vertices, 450U);  // assets/README.md
   EXPECT_EQ(report.triangles, 864U);
   ASSERT_EQ(report.frames.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    const FrameReport& entry = report.frames[i];
+    const pipeline::FrameReport& entry = report.frames[i];
     EXPECT_EQ(entry.frame, 1 + 4 * static_cast<int>(i));
     EXPECT_NEAR(entry.time_s, (entry.frame - 1) / 24.0, 1e-12);
     EXPECT_EQ(entry.path, frame(folder.path(), entry.frame).string());

@@ -12,6 +12,7 @@
 #include "gpu/timer.h"
 #include "passes/render.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/look.h"
 #include "pipeline/stepper.h"
 #include "reference/depth.h"
 #include "reference/ground.h"
@@ -28,12 +29,13 @@ Eigen::Vector3d eigen(const glm::dvec3& v) {
 }
 
 TEST_F(GroundMap, IsWholeWhereverTheLightComesFrom) {
-  SceneSettings settings = load_scene(test::asset("sleeve.toml").string());
+  config::SceneSettings settings = config::load_scene(test::asset("sleeve.toml").string());
   settings.model.loop = false;
-  LoadedScene scene(settings);
+  pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);
-  Stepper stepper(scene, timer, "");
-  passes::RenderPass pass(scene.look(), scene.profile, scene.draw_parts(), scene.texture_levels(), "");
+  pipeline::Stepper stepper(scene, timer, "");
+  passes::RenderPass pass(pipeline::look_of(scene), scene.profile, pipeline::draw_parts(scene),
+                          pipeline::texture_levels(scene), "");
   const gpu::Target target(64, 48, 1, gpu::Target::Format::srgb8);
   stepper.advance_to(scene.step_of_frame(36));
   passes::View view = scene.view(36);

@@ -10,14 +10,15 @@ namespace plisse::pipeline {
 
 // Needs a current context.
 struct History {
-  explicit History(const SceneSettings& settings) : scene(settings), timer(true), stepper(scene, timer, "") {}
+  explicit History(const config::SceneSettings& settings)
+      : scene(settings), timer(true), stepper(scene, timer, "") {}
   test::Readings at(int frame) {
     stepper.advance_to(scene.step_of_frame(frame));
     return test::read(stepper.surface());
   }
-  LoadedScene scene;
+  pipeline::LoadedScene scene;
   gpu::StageTimer timer;
-  Stepper stepper;
+  pipeline::Stepper stepper;
 };
 
 }  // namespace plisse::pipeline

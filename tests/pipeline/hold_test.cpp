@@ -13,7 +13,7 @@ namespace {
 class Hold : public test::OpenGlTest {};
 
 // A sheet of 5 × 5 vertices as 24 OBJ files: squeezed frame by frame to 80 % at frame 10, still from there.
-SceneSettings squeezed_then_still(const std::filesystem::path& folder) {
+config::SceneSettings squeezed_then_still(const std::filesystem::path& folder) {
   for (int frame = 1; frame <= 24; ++frame) {
     const double width = 1 - 0.2 * std::min(frame - 1, 9) / 9.0;
     std::string text;
@@ -23,14 +23,14 @@ SceneSettings squeezed_then_still(const std::filesystem::path& folder) {
     }
     test::write_text(folder / fmt::format("sheet_{:04}.obj", frame), text);
   }
-  SceneSettings settings;
+  config::SceneSettings settings;
   settings.model.path = (folder / "sheet_####.obj").string();
   return settings;
 }
 
 TEST_F(Hold, IsCrushedOnceMoreWhereTheIntervalPutIt) {
   const test::TemporaryFolder folder;
-  SceneSettings settings = squeezed_then_still(folder.path());
+  config::SceneSettings settings = squeezed_then_still(folder.path());
   settings.relax.interval = 4;  // crush at 1, 5, 9, 13, …
   History run(settings);
   EXPECT_LT(run.at(12).compression[12], 0.199);  // as of frame 9
@@ -56,7 +56,7 @@ TEST_F(Hold, LeavesEverythingAsItWas) {
 // short of it.
 TEST_F(Hold, DoesNotKeepALoopFromClosing) {
   const test::TemporaryFolder folder;
-  SceneSettings settings = squeezed_then_still(folder.path());
+  config::SceneSettings settings = squeezed_then_still(folder.path());
   settings.model.loop = true;
   settings.model.rest = "frame:5";  // so that frame 1 has waves to come back to
   History run(settings);

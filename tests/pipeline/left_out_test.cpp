@@ -8,12 +8,14 @@
 #include <functional>
 
 #include "config/scene_file.h"
+#include "config/settings.h"
 #include "gpu/target.h"
 #include "gpu/timer.h"
 #include "io/image.h"
 #include "passes/render.h"
-#include "pipeline.h"
 #include "pipeline/history.h"
+#include "pipeline/look.h"
+#include "pipeline/render.h"
 #include "support/files.h"
 #include "support/opengl.h"
 
@@ -25,8 +27,8 @@ constexpr int width = 230, height = 170;  // no multiples of the driver's tiles
 class LeftOut : public test::OpenGlTest {
  protected:
   // The sleeve (three materials, in one surface) without floor and shadow.
-  static SceneSettings sleeve() {
-    SceneSettings settings = load_scene(test::asset("sleeve.toml").string());
+  static config::SceneSettings sleeve() {
+    config::SceneSettings settings = config::load_scene(test::asset("sleeve.toml").string());
     settings.model.loop = false;
     settings.output.ground = settings.light.shadows = false;
     settings.output.width = width;
@@ -35,7 +37,7 @@ class LeftOut : public test::OpenGlTest {
   }
 
   // What is left out of a frame; fails where that shows.
-  static passes::LeftOut left_out(const SceneSettings& settings, int frame) {
+  static passes::LeftOut left_out(const config::SceneSettings& settings, int frame) {
     History run(settings);
     run.at(frame);
     passes::LeftOut result;
@@ -43,8 +45,8 @@ class LeftOut : public test::OpenGlTest {
       const passes::View view = run.scene.view(frame);
       const gpu::Target all(width, height, samples, gpu::Target::Format::srgb8),
           some(width, height, samples, gpu::Target::Format::srgb8);
-      passes::RenderPass pass(run.scene.look(), run.scene.profile, run.scene.draw_parts(),
-                              run.scene.texture_levels(), "");
+      passes::RenderPass pass(pipeline::look_of(run.scene), run.scene.profile,
+                              pipeline::draw_parts(run.scene), pipeline::texture_levels(run.scene), "");
       pass.draw_all(run.stepper.surface(), view, all);
       EXPECT_EQ(pass.left_out().flat + pass.left_out().too_fine + pass.left_out().out_of_view, 0);
       pass.draw(run.stepper.surface(), view, some, true);
@@ -56,7 +58,7 @@ class LeftOut : public test::OpenGlTest {
 };
 
 // Two sheets of 5 × 5 vertices side by side as OBJ files, squeezed from frame 2 on.
-SceneSettings two_sheets(const std::filesystem::path& folder) {
+config::SceneSettings two_sheets(const std::filesystem::path& folder) {
   for (int frame = 1; frame <= 3; ++frame) {
     std::string text;
     for (int sheet = 0; sheet < 2; ++sheet) {
@@ -70,7 +72,7 @@ SceneSettings two_sheets(const std::filesystem::path& folder) {
     }
     test::write_text(folder / fmt::format("sheet_{:04}.obj", frame), text);
   }
-  SceneSettings settings;
+  config::SceneSettings settings;
   settings.model.path = (folder / "sheet_####.obj").string();
   settings.output.width = width;
   settings.output.height = height;
@@ -79,7 +81,7 @@ SceneSettings two_sheets(const std::filesystem::path& folder) {
 
 TEST_F(LeftOut, PartsThatAreMaskedAreDrawnWithoutWaves) {
   const test::TemporaryFolder folder;
-  SceneSettings settings = two_sheets(folder.path());
+  config::SceneSettings settings = two_sheets(folder.path());
   EXPECT_EQ(left_out(settings, 3).flat, 0);
   settings.wrinkles.only = {"left"};
   const passes::LeftOut squeezed = left_out(settings, 3);
@@ -91,19 +93,19 @@ TEST_F(LeftOut, PartsThatAreMaskedAreDrawnWithoutWaves) {
 
 // The sleeve has seams of uv, so vertices of the file have other numbers than welded ones.
 TEST_F(LeftOut, ThePartThatIsPickedWrinklesAndNoOther) {
-  SceneSettings settings = sleeve();
+  config::SceneSettings settings = sleeve();
   settings.wrinkles.exclude.clear();
   std::vector<std::string> materials;
   {
-    const LoadedScene scene(settings);
+    const pipeline::LoadedScene scene(settings);
     ASSERT_GT(scene.surface().render_vertices.size(), scene.surface().vertex_count());
     for (const Part& part : scene.surface().parts) materials.push_back(part.material_name);
   }
   ASSERT_EQ(materials.size(), 3U);
   for (const std::string& picked : materials) {
     settings.wrinkles.only = {picked};
-    const LoadedScene scene(settings);
-    const auto parts = scene.draw_parts();
+    const pipeline::LoadedScene scene(settings);
+    const auto parts = pipeline::draw_parts(scene);
     for (std::size_t p = 0; p < parts.size(); ++p)
       EXPECT_EQ(parts[p].wrinkles, materials[p] == picked) << picked << p;
   }
@@ -119,7 +121,7 @@ TEST_F(LeftOut, WavesUnderTwoPixelsAreRoughnessAlone) {
   // From in front, `factor` times as far off as where the sheets fill the picture and a wave is some 18
   // pixels long.
   const auto from = [&](double factor, int fine) {
-    SceneSettings settings = two_sheets(folder.path());
+    config::SceneSettings settings = two_sheets(folder.path());
     settings.wrinkles.fine = fine;
     settings.camera.explicit_pose = true;
     settings.camera.target = {1.1, 0.5, 0};
@@ -134,7 +136,7 @@ TEST_F(LeftOut, WavesUnderTwoPixelsAreRoughnessAlone) {
 }
 
 TEST_F(LeftOut, PartsOutOfViewAreNotDrawn) {
-  SceneSettings settings = sleeve();
+  config::SceneSettings settings = sleeve();
   // Up to the elbow's inside: the cuff at the sleeve's end is beyond the picture.
   settings.camera.focal_length *= 5;
   const passes::LeftOut close = left_out(settings, 37);
@@ -150,11 +152,11 @@ TEST_F(LeftOut, WhereNoTextureIsThereIsNoParallax) {
   const passes::View view = run.scene.view(37);
   const gpu::Target target(width, height, 4, gpu::Target::Format::srgb8);
   const auto drawn = [&](bool white) {
-    auto parts = run.scene.draw_parts();
+    auto parts = pipeline::draw_parts(run.scene);
     for (passes::DrawPart& part : parts) part.texture = white ? 0 : -1;
     std::vector<std::vector<passes::TextureLevel>> textures;
     if (white) textures.push_back({{1, 1, {255, 255, 255, 255}}});
-    passes::RenderPass pass(run.scene.look(), run.scene.profile, parts, textures, "");
+    passes::RenderPass pass(pipeline::look_of(run.scene), run.scene.profile, parts, textures, "");
     pass.draw(run.stepper.surface(), view, target, true);
     EXPECT_EQ(pass.left_out().untextured, white ? 0 : 3);
     return target.read_rgba8();
@@ -167,21 +169,21 @@ class LeftOutRuns : public test::DriverTest {};
 
 TEST_F(LeftOutRuns, MaskedSurfacesAreNeitherCrushedNorRelaxedAndTheReportSaysSo) {
   const test::TemporaryFolder folder;
-  RenderRequest request;
-  request.scene = load_scene(test::asset("curtain.toml").string());
+  pipeline::RenderRequest request;
+  request.scene = config::load_scene(test::asset("curtain.toml").string());
   request.scene.model.loop = false;
   request.scene.model.frames = "1-6";
   request.scene.output.width = width;
   request.scene.output.height = height;
   request.scene.wrinkles.strength = 0;
   request.scene.output.path = (folder / "masked").string();
-  const RenderReport masked = render(request, {});
+  const pipeline::RenderReport masked = pipeline::render(request, {});
   EXPECT_EQ(masked.skipped.at("masked surfaces"), 6);
   EXPECT_GE(masked.skipped.at("parts without waves"), 6);
   // With an AOV that shows the compression the passes run, and the pictures are the same.
   request.aovs = {"tension"};
   request.scene.output.path = (folder / "looked_at").string();
-  const RenderReport looked_at = render(request, {});
+  const pipeline::RenderReport looked_at = pipeline::render(request, {});
   EXPECT_FALSE(looked_at.skipped.contains("masked surfaces"));
   for (int n = 1; n <= 6; ++n) {
     const std::string name = "frame_000" + std::to_string(n) + ".png";
@@ -193,20 +195,20 @@ TEST_F(LeftOutRuns, MaskedSurfacesAreNeitherCrushedNorRelaxedAndTheReportSaysSo)
 
 TEST_F(LeftOutRuns, WhatPicturesWithoutWavesSaveIsEstimatedFromThoseWith) {
   const test::TemporaryFolder folder;
-  RenderRequest request;
-  request.scene = load_scene(test::asset("square.toml").string());
+  pipeline::RenderRequest request;
+  request.scene = config::load_scene(test::asset("square.toml").string());
   request.scene.model.loop = false;
   request.scene.model.frames = "1-24";
   request.scene.output.width = width;
   request.scene.output.height = height;
   request.scene.output.path = (folder / "out").string();
-  const RenderReport report = render(request, {});
+  const pipeline::RenderReport report = pipeline::render(request, {});
   const int flat =
       report.skipped.contains("parts without waves") ? report.skipped.at("parts without waves") : 0;
   EXPECT_GE(flat, 1);
   EXPECT_LT(flat, 24);
   int named = 0;
-  for (const FrameReport& frame : report.frames)
+  for (const pipeline::FrameReport& frame : report.frames)
     for (const std::string& what : frame.left_out) named += what == "parts without waves" ? 1 : 0;
   EXPECT_EQ(named, flat);  // the square is one part
 }

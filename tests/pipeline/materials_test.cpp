@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "pipeline.h"
+#include "config/settings.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/render.h"
+#include "pipeline/verify.h"
 #include "support/files.h"
 #include "support/gltf_file.h"
 #include "support/opengl.h"
@@ -34,7 +36,7 @@ std::vector<std::uint8_t> picture(int size, const Colour& colour) {
 // before it.
 class Materials : public test::DriverTest {
  protected:
-  SceneSettings scene(const std::string& material, const std::string& attributes = "") {
+  config::SceneSettings scene(const std::string& material, const std::string& attributes = "") {
     std::vector<float> place, squeeze, uv, colour;
     std::vector<std::uint16_t> triangles;
     for (int j = 0; j <= rows; ++j)
@@ -76,17 +78,17 @@ class Materials : public test::DriverTest {
             index, position, coordinates,
             attributes.empty() ? "" : fmt::format(R"(,"{}":{})", attributes, colours), delta, material,
             normals, weave, times, weights, buffer.json()));
-    SceneSettings settings;
+    config::SceneSettings settings;
     settings.model.path = folder_ / "sheet.gltf";
     settings.model.frames = "1,25";
     settings.output.width = 200;
     settings.output.height = 150;
     return settings;
   }
-  static void expect_verified(const SceneSettings& settings) {
-    RenderRequest request;
+  static void expect_verified(const config::SceneSettings& settings) {
+    pipeline::RenderRequest request;
     request.scene = settings;
-    const VerifyReport report = verify(request, {});
+    const pipeline::VerifyReport report = pipeline::verify(request, {});
     EXPECT_TRUE(report.ok) << fmt::format("{}", fmt::join(report.failures, "\n"));
     EXPECT_GT(report.fraction_within_4, 0.9975);
   }
@@ -96,8 +98,8 @@ class Materials : public test::DriverTest {
 constexpr const char* mapped = R"("normalTexture":{"index":0,"scale":0.8},"doubleSided":true)";
 
 TEST_F(Materials, NormalMapsUnderWrinkles) {
-  const SceneSettings settings = scene(mapped);
-  const LoadedScene loaded(settings);
+  const config::SceneSettings settings = scene(mapped);
+  const pipeline::LoadedScene loaded(settings);
   const passes::DrawPart part = loaded.draw_parts().at(0);
   EXPECT_EQ(part.normal_texture, 0);
   EXPECT_EQ(part.normal_scale, 0.8F);
@@ -106,13 +108,13 @@ TEST_F(Materials, NormalMapsUnderWrinkles) {
 }
 
 TEST_F(Materials, EverythingAtOnce) {
-  const SceneSettings settings = scene(
+  const config::SceneSettings settings = scene(
       fmt::format(
           R"({},"alphaMode":"MASK","alphaCutoff":0.3,"pbrMetallicRoughness":{{"baseColorFactor":[0.9,0.8,1,1],
 "baseColorTexture":{{"index":1,"extensions":{{"KHR_texture_transform":{{"scale":[3,2],"rotation":0.4}}}}}}}})",
           mapped),
       "COLOR_0");
-  const passes::DrawPart part = LoadedScene(settings).draw_parts().at(0);
+  const passes::DrawPart part = pipeline::LoadedScene(settings).draw_parts().at(0);
   EXPECT_TRUE(part.has_colours);
   EXPECT_EQ(part.base_colour, glm::vec4(0.9F, 0.8F, 1, 1));
   EXPECT_EQ(part.alpha_cutoff, 0.3F);
@@ -120,17 +122,17 @@ TEST_F(Materials, EverythingAtOnce) {
 }
 
 TEST_F(Materials, VertexColoursAlone) {
-  const SceneSettings settings = scene(R"("doubleSided":true)", "COLOR_0");
+  const config::SceneSettings settings = scene(R"("doubleSided":true)", "COLOR_0");
   // They are the look: the scene's own colour is for surfaces that have none.
-  EXPECT_EQ(LoadedScene(settings).draw_parts().at(0).base_colour, glm::vec4(1));
+  EXPECT_EQ(pipeline::LoadedScene(settings).draw_parts().at(0).base_colour, glm::vec4(1));
   expect_verified(settings);
 }
 
 TEST_F(Materials, CamerasOfTheFile) {
-  SceneSettings settings = scene(mapped);
+  config::SceneSettings settings = scene(mapped);
   const auto picture_place = [&](const std::string& camera, const glm::dvec3& world) {
     settings.camera.name = camera;
-    const LoadedScene loaded(settings);
+    const pipeline::LoadedScene loaded(settings);
     const glm::dvec4 clip = loaded.view(1).view_projection * glm::dvec4(loaded.units.world(world), 1);
     return glm::dvec2(clip) / clip.w;
   };

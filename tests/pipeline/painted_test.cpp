@@ -14,8 +14,8 @@ namespace {
 
 class PaintedAssets : public test::OpenGlTest {};
 
-SceneSettings once(const std::string& asset) {
-  SceneSettings settings = load_scene(test::asset(asset));
+config::SceneSettings once(const std::string& asset) {
+  config::SceneSettings settings = config::load_scene(test::asset(asset));
   settings.model.loop = false;  // no test needs the round before
   return settings;
 }
@@ -54,7 +54,7 @@ TEST_F(PaintedAssets, TheSleeveIsWrinkledAtRestAndMoreSoWhereItIsSqueezed) {
 }
 
 TEST_F(PaintedAssets, TheShirtsFoldsAreAsManyAndAsSteepAsItsFileSays) {
-  SceneSettings settings = once("shirt_painted.toml");
+  config::SceneSettings settings = once("shirt_painted.toml");
   History run(settings);
   const auto first = run.at(1);
   const auto& bias = run.scene.waves.bias;

@@ -9,10 +9,11 @@
 #include <functional>
 
 #include "base/error.h"
+#include "config/settings.h"
 #include "io/image.h"
 #include "io/png.h"
-#include "pipeline.h"
 #include "pipeline/history.h"
+#include "pipeline/render.h"
 #include "support/errors.h"
 #include "support/files.h"
 #include "support/opengl.h"
@@ -28,8 +29,8 @@ class Skipping : public test::OpenGlTest {};
 class SkippingRuns : public test::DriverTest {};
 
 // A sheet of 5 × 5 vertices as OBJ files; `width` says how wide it is at a frame, 1 at rest.
-SceneSettings sheet(const std::filesystem::path& folder, int frames,
-                    const std::function<double(int)>& width) {
+config::SceneSettings sheet(const std::filesystem::path& folder, int frames,
+                            const std::function<double(int)>& width) {
   for (int frame = 1; frame <= frames; ++frame) {
     std::string text;
     for (int i = 0; i < 25; ++i)
@@ -39,7 +40,7 @@ SceneSettings sheet(const std::filesystem::path& folder, int frames,
     }
     test::write_text(folder / fmt::format("sheet_{:04}.obj", frame), text);
   }
-  SceneSettings settings;
+  config::SceneSettings settings;
   settings.model.path = (folder / "sheet_####.obj").string();
   settings.output.width = 64;
   settings.output.height = 48;
@@ -54,19 +55,19 @@ double stretched_then_squeezed(int frame) {
   return frame <= 6 ? 1 + 0.01 * frame : 1 - 0.02 * frame;
 }
 
-std::filesystem::path frame(const SceneSettings& settings, int number) {
+std::filesystem::path frame(const config::SceneSettings& settings, int number) {
   return std::filesystem::path(settings.output.path) / fmt::format("frame_{:04}.png", number);
 }
 
 TEST_F(SkippingRuns, APictureThatStaysIsDrawnAndCompressedOnce) {
   const test::TemporaryFolder folder;
-  RenderRequest request;
+  pipeline::RenderRequest request;
   request.scene = sheet(folder.path(), 12, squeezed_then_still);
-  const RenderReport report = render(request, {});
+  const pipeline::RenderReport report = pipeline::render(request, {});
   EXPECT_EQ(report.skipped.at("unchanged poses"), 7);  // frames 6 … 12
   EXPECT_EQ(report.skipped.at("copied pictures"), 7);
   EXPECT_GT(report.saved_s.at("copied pictures"), 0);
-  for (const FrameReport& entry : report.frames) {
+  for (const pipeline::FrameReport& entry : report.frames) {
     EXPECT_EQ(entry.ms.contains("render"), entry.frame <= 5) << entry.frame;
     EXPECT_EQ(std::ranges::count(entry.left_out, "copied pictures"), entry.frame > 5 ? 1 : 0) << entry.frame;
   }
@@ -77,7 +78,7 @@ TEST_F(SkippingRuns, APictureThatStaysIsDrawnAndCompressedOnce) {
   const auto copied = test::read_bytes(frame(request.scene, 12));
   EXPECT_NE(copied, test::read_bytes(frame(request.scene, 5)));
   request.scene.model.frames = "12";
-  EXPECT_FALSE(render(request, {}).skipped.contains("copied pictures"));
+  EXPECT_FALSE(pipeline::render(request, {}).skipped.contains("copied pictures"));
   EXPECT_EQ(test::read_bytes(frame(request.scene, 12)), copied);
 }
 
@@ -97,8 +98,9 @@ TEST_F(Skipping, NothingToRelaxIsNotRelaxed) {
 
 TEST_F(Skipping, WhatTheLastRoundMovedFallsAsTheWavesComeToRest) {
   const test::TemporaryFolder folder;
-  SceneSettings settings = sheet(folder.path(), 40, [](int n) { return n == 1 ? 1.0 : 0.8 - 1e-6 * n; });
-  settings.relax.mode = RelaxMode::descent;  // from random phases
+  config::SceneSettings settings =
+      sheet(folder.path(), 40, [](int n) { return n == 1 ? 1.0 : 0.8 - 1e-6 * n; });
+  settings.relax.mode = config::RelaxMode::descent;  // from random phases
   pipeline::History run(settings);
   run.at(2);
   const double begun = run.stepper.last_round_moved();
@@ -114,66 +116,67 @@ TEST_F(Skipping, WhatTheLastRoundMovedFallsAsTheWavesComeToRest) {
 TEST_F(SkippingRuns, ASurfaceOutOfViewIsStepsWithoutDrawing) {
   for (const int samples : {1, 4}) {
     const test::TemporaryFolder folder;
-    RenderRequest request;
+    pipeline::RenderRequest request;
     request.scene = sheet(folder.path(), 3, [](int n) { return 1 - 0.05 * n; });
     request.scene.output.samples = samples;
     request.scene.camera.explicit_pose = true;
     request.scene.camera.eye = {0.5, 0.5, 5};
     request.scene.camera.target = {40, 0.5, 5};  // past it
-    const RenderReport report = render(request, {});
+    const pipeline::RenderReport report = pipeline::render(request, {});
     EXPECT_EQ(report.skipped.at("surfaces out of view"), 3);
     const io::Image image = io::load_image(frame(request.scene, 3));
     for (std::size_t i = 0; i < image.rgba.size(); ++i) ASSERT_EQ(image.rgba[i], image.rgba[i % 4]) << i;
     request.scene.camera.target = {0.5, 0.5, 0};
-    EXPECT_FALSE(render(request, {}).skipped.contains("surfaces out of view"));
+    EXPECT_FALSE(pipeline::render(request, {}).skipped.contains("surfaces out of view"));
     EXPECT_NE(io::load_image(frame(request.scene, 3)).rgba, image.rgba);
   }
 }
 
 TEST_F(SkippingRuns, AnErrorBuysRoundsAndItsFramesClaimNoHash) {
   const test::TemporaryFolder folder;
-  RenderRequest request;
+  pipeline::RenderRequest request;
   request.scene = sheet(folder.path(), 8, [](int n) { return 1 - 0.03 * n; });
-  request.scene.relax.mode = RelaxMode::descent;
+  request.scene.relax.mode = config::RelaxMode::descent;
   request.max_error = 1e-9;
-  const RenderReport strict = render(request, {});
-  EXPECT_EQ(strict.frames.front().effort, (Effort{1, 1, 4}));
+  const pipeline::RenderReport strict = pipeline::render(request, {});
+  EXPECT_EQ(strict.frames.front().effort, (pipeline::Effort{1, 1, 4}));
   EXPECT_GE(strict.frames.back().effort->rounds, 32);
   const std::string text = test::read_text(frame(request.scene, 8));
   EXPECT_EQ(text.find("plisse-hash"), std::string::npos);
   request.max_error = 100;  // more than any phase can be off
-  const RenderReport loose = render(request, {});
+  const pipeline::RenderReport loose = pipeline::render(request, {});
   EXPECT_EQ(loose.frames.back().effort->rounds, 1);
   EXPECT_EQ(loose.frames.back().effort->interval, 4);
 
   request.skip_existing = true;
-  EXPECT_THAT(test::error_of([&] { render(request, {}); }),
+  EXPECT_THAT(test::error_of([&] { pipeline::render(request, {}); }),
               ::testing::AllOf(::testing::HasSubstr("--max-error"), ::testing::HasSubstr("--skip-existing")));
   request.skip_existing = false;
   request.budget_ms = 10;
-  EXPECT_THAT(test::error_of([&] { render(request, {}); }), ::testing::HasSubstr("exclude"));
+  EXPECT_THAT(test::error_of([&] { pipeline::render(request, {}); }), ::testing::HasSubstr("exclude"));
 }
 
 // Frames that cost what their effort does: 10 ms, 4 a round each interval, 10 a sample.
-double cost(const Effort& effort) {
+double cost(const pipeline::Effort& effort) {
   return 10 + 4.0 * effort.rounds / effort.interval + 10.0 * effort.samples;
 }
 
-TEST(TimeBudget, GivesUpWhatIsSeenLeastFirst) {
-  const Effort wanted{5, 1, 4};  // 70 ms
-  for (const auto& [allowed, kept] : std::vector<std::pair<double, Effort>>{{80, wanted},
-                                                                            {60, {1, 1, 4}},     // 54
-                                                                            {53, {1, 2, 4}},     // 52
-                                                                            {51.5, {1, 4, 4}},   // 51
-                                                                            {30, {1, 4, 1}}}) {  // 21
+TEST(pipeline::TimeBudget, GivesUpWhatIsSeenLeastFirst) {
+  const pipeline::Effort wanted{5, 1, 4};  // 70 ms
+  for (const auto& [allowed, kept] :
+       std::vector<std::pair<double, pipeline::Effort>>{{80, wanted},
+                                                        {60, {1, 1, 4}},     // 54
+                                                        {53, {1, 2, 4}},     // 52
+                                                        {51.5, {1, 4, 4}},   // 51
+                                                        {30, {1, 4, 1}}}) {  // 21
     pipeline::TimeBudget budget(wanted, allowed);
     for (int n = 0; n < 100; ++n) budget.spent(cost(budget.effort()));
     EXPECT_EQ(budget.effort(), kept) << allowed;
   }
 }
 
-TEST(TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
-  const Effort wanted{5, 1, 4};
+TEST(pipeline::TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
+  const pipeline::Effort wanted{5, 1, 4};
   pipeline::TimeBudget budget(wanted, 80);
   budget.spent(1000);  // compiles its shaders
   EXPECT_EQ(budget.effort(), wanted);
@@ -183,14 +186,14 @@ TEST(TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
   EXPECT_EQ(budget.effort(), wanted);
 }
 
-TEST(ErrorBudget, FindsTheRoundsThatAnErrorTakes) {
+TEST(pipeline::ErrorBudget, FindsTheRoundsThatAnErrorTakes) {
   pipeline::ErrorBudget budget({1, 1, 4}, 0.1);
   for (int n = 0; n < 20; ++n) budget.moved(1.0 / budget.effort().rounds);  // ten rounds would do
   EXPECT_EQ(budget.effort().rounds, 16);
   for (int n = 0; n < 20; ++n) budget.moved(1e-3);
-  EXPECT_EQ(budget.effort(), (Effort{1, pipeline::ErrorBudget::longest_interval, 4}));
+  EXPECT_EQ(budget.effort(), (pipeline::Effort{1, pipeline::ErrorBudget::longest_interval, 4}));
   budget.moved(0.2);
-  EXPECT_EQ(budget.effort(), (Effort{1, 1, 4}));
+  EXPECT_EQ(budget.effort(), (pipeline::Effort{1, 1, 4}));
 }
 
 }  // namespace

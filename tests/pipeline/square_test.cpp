@@ -55,7 +55,7 @@ constexpr std::array<std::pair<int, double>, 3> squeezes{{{25, 0.98}, {49, 0.75}
 constexpr std::array<double, 3> heights_in_W{0.04975, 0.16536, 0.21651};
 
 TEST_F(Square, HeightsDirectionsAndWavenumbers) {
-  History run(load_scene(test::asset("square.toml")));
+  History run(config::load_scene(test::asset("square.toml")));
   const double W = run.scene.wavelength() / run.scene.units.metres;
   for (std::size_t i = 0; i < squeezes.size(); ++i) {
     const auto [frame, r] = squeezes[i];
@@ -72,7 +72,7 @@ TEST_F(Square, HeightsDirectionsAndWavenumbers) {
 
 TEST_F(Square, PhasesMakeOneWave) {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
-    SceneSettings settings = load_scene(test::asset("square.toml"));
+    config::SceneSettings settings = config::load_scene(test::asset("square.toml"));
     settings.wrinkles.seed = seed;
     History run(settings);
     const double W = run.scene.wavelength() / run.scene.units.metres;
@@ -92,7 +92,7 @@ TEST_F(Square, PhasesMakeOneWave) {
 TEST_F(Square, OneWaveHoweverItBegins) {
   for (const double fps : {10.0, 30.0, 47.0}) {
     for (const int interval : {1, 3}) {
-      SceneSettings settings = load_scene(test::asset("square.toml"));
+      config::SceneSettings settings = config::load_scene(test::asset("square.toml"));
       settings.model.frames_per_second = fps;
       settings.relax.interval = interval;
       History run(settings);
@@ -109,7 +109,7 @@ TEST_F(Square, OneWaveHoweverItBegins) {
 
 // A clip that begins wrinkled: everything is fresh in the first frame, nothing is set.
 TEST_F(Square, OneWaveFromTheFirstFrame) {
-  SceneSettings settings = load_scene(test::asset("square.toml"));
+  config::SceneSettings settings = config::load_scene(test::asset("square.toml"));
   settings.model.rest = "bind";
   settings.model.frames_per_second = 0.5;  // frames at 0 s and 2 s: from rest to 75 % in one step
   History run(settings);
@@ -125,9 +125,9 @@ TEST_F(Square, ThePapersDescentGetsStuckSlow) {
   constexpr int seeds = 32;
   double misfit = 0, amplitude = 0;
   for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
-    SceneSettings settings = load_scene(test::asset("square.toml"));
+    config::SceneSettings settings = config::load_scene(test::asset("square.toml"));
     settings.model.frames_per_second = 1;
-    settings.relax.mode = RelaxMode::descent;
+    settings.relax.mode = config::RelaxMode::descent;
     settings.relax.rounds = 100;
     settings.wrinkles.seed = seed;
     History run(settings);

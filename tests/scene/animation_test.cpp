@@ -62,7 +62,7 @@ io::Channel turning(int node, const glm::dvec3& axis, double from, double to, do
 // The strip on two bones, the upper one at y = 2; vertices at y = 2 hang on both. The armature is `armature`
 // of everything, and the bind pose is how the nodes stand.
 io::Model sleeve(const glm::dmat4& armature = glm::dmat4{1}) {
-  io::Model model = model_of(strip(4));
+  io::Model model = cloth::model_of(strip(4));
   io::Mesh& mesh = model.meshes[0];
   model.nodes.resize(4);
   model.nodes[1] = {"armature", 0, armature, {}, {}};
@@ -96,8 +96,8 @@ void expect_same(const std::vector<double>& a, const std::vector<double>& b, dou
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], tolerance) << i;
 }
 
-TEST(Animation, CountsFramesAsTheContractSays) {
-  io::Model model = model_of(strip(1));
+TEST(scene::Animation, CountsFramesAsTheContractSays) {
+  io::Model model = cloth::model_of(strip(1));
   // ⌊T·fps + 1e-3⌋ + 1, with durations that single precision leaves short of a whole frame.
   for (const auto& [duration, fps, frames] : {std::tuple{1.0, 24.0, 25},
                                               {2.0833299, 24.0, 51},
@@ -106,21 +106,21 @@ TEST(Animation, CountsFramesAsTheContractSays) {
                                               {0.0, 24.0, 1},
                                               {1.0, 30.0, 31}}) {
     model.clips = {clip_of(duration, {})};
-    EXPECT_EQ(Animation(model, {.frames_per_second = fps}).timeline().frame_count, frames) << duration;
+    EXPECT_EQ(scene::Animation(model, {.frames_per_second = fps}).timeline().frame_count, frames) << duration;
   }
   model.clips.clear();
-  EXPECT_EQ(Animation(model, {}).timeline().frame_count, 1);
+  EXPECT_EQ(scene::Animation(model, {}).timeline().frame_count, 1);
 }
 
-TEST(Animation, BendsASkinAsByHand) {
+TEST(scene::Animation, BendsASkinAsByHand) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   const Surface& surface = animation.surface();
   ASSERT_EQ(surface.vertex_count(), 10U);
-  EXPECT_EQ(posed(surface, animation.pose(1)), surface.bind);
+  EXPECT_EQ(scene::posed(surface, animation.pose(1)), surface.bind);
   // A quarter turn about (0, 2): (x, y) goes to (2 − y, 2 + x); half of it on the row at y = 2.
-  const std::vector<glm::dvec3> bent = posed(surface, animation.pose(25));
+  const std::vector<glm::dvec3> bent = scene::posed(surface, animation.pose(25));
   for (std::size_t v = 0; v < 10; ++v) {
     const glm::dvec3 p = surface.bind[v];
     const glm::dvec3 turned{2 - p.y, 2 + p.x, 0};
@@ -129,28 +129,28 @@ TEST(Animation, BendsASkinAsByHand) {
   }
 }
 
-TEST(Animation, RigidMotionOfASkinKeepsDistances) {
+TEST(scene::Animation, RigidMotionOfASkinKeepsDistances) {
   io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
   io::Channel channel = turning(0, glm::normalize(glm::dvec3{1, 2, 3}), 0, 2.5, 1);
   channel.translation.times = {0, 1};
   channel.translation.values = {{0, 0, 0}, {5, -3, 8}};
   model.clips = {clip_of(1, {channel})};
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   const Surface& surface = animation.surface();
   const std::vector<double> rest = edge_lengths(surface, surface.rest);
   EXPECT_NEAR(rest[0], 0.01, rounding);  // metres of the world, not of the file's mesh
   for (const int frame : {1, 7, 25})
-    expect_same(edge_lengths(surface, posed(surface, animation.pose(frame))), rest, rounding);
+    expect_same(edge_lengths(surface, scene::posed(surface, animation.pose(frame))), rest, rounding);
 }
 
 // An armature scaled along one axis, or by 100, or mirrored, as exporters write them: the rest is what the
 // default pose shows, so nothing reads as compressed.
-TEST(Animation, ScaledArmaturesRestUncompressed) {
+TEST(scene::Animation, ScaledArmaturesRestUncompressed) {
   for (const glm::dvec3& scale : {glm::dvec3{100}, glm::dvec3{0.01}, glm::dvec3{1, 1.23, 1},
                                   glm::dvec3{-1, 1, 1}, glm::dvec3{-2, 0.5, 3}}) {
-    Animation animation(sleeve(glm::scale(glm::dmat4{1}, scale)), {});
+    scene::Animation animation(sleeve(glm::scale(glm::dmat4{1}, scale)), {});
     const Surface& surface = animation.surface();
-    const std::vector<glm::dvec3> shown = posed(surface, animation.pose(1));
+    const std::vector<glm::dvec3> shown = scene::posed(surface, animation.pose(1));
     expect_same(edge_lengths(surface, shown), edge_lengths(surface, surface.rest),
                 rounding * glm::length(scale));
     for (std::size_t v = 0; v < shown.size(); ++v) {
@@ -167,16 +167,16 @@ TEST(Animation, ScaledArmaturesRestUncompressed) {
 }
 
 // Where the nodes stand bent although the skin was bound straight, the size still comes out right.
-TEST(Animation, BindPoseNeedNotBeTheDefaultPose) {
+TEST(scene::Animation, BindPoseNeedNotBeTheDefaultPose) {
   io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
   model.nodes[3].local = model.nodes[3].local * glm::mat4_cast(about({1, 0, 0}, 1));
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   const std::vector<double> rest = edge_lengths(animation.surface(), animation.surface().rest);
   for (const double length : rest)
     EXPECT_TRUE(std::abs(length - 0.01) < rounding || std::abs(length - 0.01 * std::sqrt(2)) < rounding);
 }
 
-TEST(Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
+TEST(scene::Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
   io::Model model = sleeve();
   // The upper half in another mesh of another material; its lowest row repeats the first mesh's highest.
   io::Mesh upper = model.meshes[0];
@@ -185,7 +185,7 @@ TEST(Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
   upper.triangles.erase(upper.triangles.begin(), upper.triangles.begin() + 12);
   model.meshes.push_back(upper);
   model.nodes[0].meshes = {0, 1};
-  Animation joined(model, {});
+  scene::Animation joined(model, {});
   EXPECT_EQ(joined.surface().vertex_count(), 10U);
   ASSERT_EQ(joined.surface().parts.size(), 2U);
   EXPECT_EQ(joined.surface().parts[1].mesh, "upper half");
@@ -196,25 +196,25 @@ TEST(Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
     model.meshes[1].influences[v].bone = {1};
     model.meshes[1].influences[v].weight = {1};
   }
-  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 12U);
+  EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 12U);
 }
 
-TEST(Animation, WeldsStillNodesButNotMovingOnes) {
-  io::Model model = model_of(strip(1));
+TEST(scene::Animation, WeldsStillNodesButNotMovingOnes) {
+  io::Model model = cloth::model_of(strip(1));
   model.nodes.resize(3);
   model.nodes[1] = {"left", 0, glm::translate(glm::dmat4{1}, {1, 0, 0}), {0}, {}};
   model.nodes[2] = {"above", 0, glm::translate(glm::dmat4{1}, {0, 1, 0}), {0}, {}};
   // Three squares in an L: 8 corners.
-  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 8U);
+  EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 8U);
   model.clips = {clip_of(1, {turning(2, {0, 1, 0}, 0, 1, 1)})};
-  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 10U);
+  EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 10U);
 }
 
-TEST(Animation, MorphTargetsMoveInTheWorldsSpace) {
+TEST(scene::Animation, MorphTargetsMoveInTheWorldsSpace) {
   io::Mesh mesh = strip(1);
   mesh.targets = {{"up", std::vector<glm::vec3>(4, {0, 0, 1})},
                   {"side", std::vector<glm::vec3>(4, {1, 0, 0})}};
-  io::Model model = model_of(mesh);
+  io::Model model = cloth::model_of(mesh);
   model.nodes[0].local =
       glm::rotate(glm::scale(glm::dmat4{1}, glm::dvec3{2}), pi / 2, {0, 1, 0});  // z → x, x → −z
   io::Channel channel;
@@ -222,94 +222,96 @@ TEST(Animation, MorphTargetsMoveInTheWorldsSpace) {
   channel.morph_weights.times = {0, 1};
   channel.morph_weights.values = {{0, 0}, {1, 0.5}};
   model.clips = {clip_of(1, {channel})};
-  Animation animation(model, {});
-  const std::vector<glm::dvec3> first = posed(animation.surface(), animation.pose(1));
-  const std::vector<glm::dvec3> last = posed(animation.surface(), animation.pose(25));
+  scene::Animation animation(model, {});
+  const std::vector<glm::dvec3> first = scene::posed(animation.surface(), animation.pose(1));
+  const std::vector<glm::dvec3> last = scene::posed(animation.surface(), animation.pose(25));
   for (std::size_t v = 0; v < 4; ++v)
     EXPECT_NEAR(glm::distance(last[v] - first[v], {2, 0, -1}), 0, 1e-6);  // deltas are floats
 }
 
-TEST(Animation, CacheKeepsVerticesThatPartLater) {
-  io::Model model = model_of(strip(1));
+TEST(scene::Animation, CacheKeepsVerticesThatPartLater) {
+  io::Model model = cloth::model_of(strip(1));
   io::Mesh second = strip(1);  // lies on the first
   model.meshes.push_back(second);
   model.nodes[0].meshes = {0, 1};
   std::vector<glm::dvec3> frame = model.meshes[0].positions;
   frame.insert(frame.end(), second.positions.begin(), second.positions.end());
   model.cache = io::VertexCache({frame, frame}, 24);
-  EXPECT_EQ(Animation(model, {}).surface().vertex_count(), 4U);
+  EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 4U);
   std::vector<glm::dvec3> parted = frame;
   parted[7].z += 0.5;
   model.cache = io::VertexCache({frame, parted}, 24);
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   EXPECT_EQ(animation.surface().vertex_count(), 5U);
   EXPECT_EQ(animation.timeline().frame_count, 2);
-  EXPECT_NEAR(posed(animation.surface(), animation.pose(2))[4].z, 0.5, 0);
+  EXPECT_NEAR(scene::posed(animation.surface(), animation.pose(2))[4].z, 0.5, 0);
 }
 
-TEST(Animation, RestPoses) {
+TEST(scene::Animation, RestPoses) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {1, 0, 0}, 1, 2, 1)})};
-  EXPECT_EQ(Animation(model, {}).surface().rest, Animation(model, {}).surface().bind);
-  Animation framed(model, {.rest = "frame:13"});
-  EXPECT_EQ(framed.surface().rest, posed(framed.surface(), framed.pose(13)));
+  EXPECT_EQ(scene::Animation(model, {}).surface().rest, scene::Animation(model, {}).surface().bind);
+  scene::Animation framed(model, {.rest = "frame:13"});
+  EXPECT_EQ(framed.surface().rest, scene::posed(framed.surface(), framed.pose(13)));
   // The upper end turned with its bone, 1.5 rad about x, and the file normals with it.
   for (const RenderVertex& vertex : framed.surface().render_vertices) {
     if (framed.surface().bind[vertex.welded].y < 4) continue;
     const glm::dvec3 expected{0, -std::sin(1.5), std::cos(1.5)};
     EXPECT_NEAR(glm::distance(glm::dvec3(vertex.normal), expected), 0, 1e-6);  // floats
   }
-  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "frame:26"}); }), testing::HasSubstr("1 to 25"));
-  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "frame:x"}); }), testing::HasSubstr("frame:N"));
-  EXPECT_THAT(test::error_of([&] { Animation(model, {.rest = "gone.obj"}); }),
+  EXPECT_THAT(test::error_of([&] { scene::Animation(model, {.rest = "frame:26"}); }),
+              testing::HasSubstr("1 to 25"));
+  EXPECT_THAT(test::error_of([&] { scene::Animation(model, {.rest = "frame:x"}); }),
+              testing::HasSubstr("frame:N"));
+  EXPECT_THAT(test::error_of([&] { scene::Animation(model, {.rest = "gone.obj"}); }),
               testing::HasSubstr("gone.obj"));
 }
 
-TEST(Animation, ChoosesClips) {
+TEST(scene::Animation, ChoosesClips) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {}), clip_of(2, {}), clip_of(3, {})};
   model.clips[0].name = "Survey";
   model.clips[1].name = "Walk";
   model.clips[2].name = "Run";
-  EXPECT_EQ(Animation(model, {}).clip_name(), "Survey");
-  EXPECT_EQ(Animation(model, {.clip = "Walk"}).clip_name(), "Walk");
-  EXPECT_EQ(Animation(model, {.clip = "2"}).clip_name(), "Run");
+  EXPECT_EQ(scene::Animation(model, {}).clip_name(), "Survey");
+  EXPECT_EQ(scene::Animation(model, {.clip = "Walk"}).clip_name(), "Walk");
+  EXPECT_EQ(scene::Animation(model, {.clip = "2"}).clip_name(), "Run");
   EXPECT_THAT(
-      test::error_of([&] { Animation(model, {.clip = "wolk"}); }),
+      test::error_of([&] { scene::Animation(model, {.clip = "wolk"}); }),
       testing::HasSubstr("did you mean 'Walk'?); it has, by index or name: 0 'Survey', 1 'Walk', 2 'Run'"));
-  EXPECT_THAT(test::error_of([&] { Animation(model, {.clip = "3"}); }),
+  EXPECT_THAT(test::error_of([&] { scene::Animation(model, {.clip = "3"}); }),
               testing::HasSubstr("0 'Survey', 1 'Walk', 2 'Run'"));
 }
 
-TEST(Animation, HoldsTheLastGoodPose) {
+TEST(scene::Animation, HoldsTheLastGoodPose) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 1)})};
   io::Keys<glm::dquat>& track = model.clips[0].channels[0].rotation;
   const double bad = std::numeric_limits<double>::quiet_NaN();
   track.times = {0, 0.25, 0.5, 1};
   track.values = {about({0, 0, 1}, 0), about({0, 0, 1}, 1), {bad, 0, 0, 0}, about({0, 0, 1}, 2)};
-  Animation animation(model, {});
-  const Pose good = animation.pose(7);  // 0.25 s
+  scene::Animation animation(model, {});
+  const scene::Pose good = animation.pose(7);  // 0.25 s
   EXPECT_EQ(animation.pose(10), good);
   EXPECT_EQ(animation.pose(13), good);
   EXPECT_NE(animation.pose(25), good);
-  const Animation::Bounds bounds = animation.bounds();
+  const scene::Animation::Bounds bounds = animation.bounds();
   EXPECT_TRUE(std::isfinite(glm::length(bounds.high - bounds.low)));
 }
 
-TEST(Animation, EqualTimesGiveEqualBits) {
+TEST(scene::Animation, EqualTimesGiveEqualBits) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 0.5)})};
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   EXPECT_EQ(animation.pose(13), animation.pose(25));
   EXPECT_NE(animation.pose(12), animation.pose(13));
 }
 
-TEST(Animation, BoundsHoldEveryFrame) {
+TEST(scene::Animation, BoundsHoldEveryFrame) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
-  Animation animation(model, {});
-  const Animation::Bounds bounds = animation.bounds();
+  scene::Animation animation(model, {});
+  const scene::Animation::Bounds bounds = animation.bounds();
   // Bent, the far corner (0, 4) comes to (−2, 2); on the way (1, 4) swings through y = 2 + √5.
   EXPECT_NEAR(bounds.low.x, -2, rounding);
   EXPECT_NEAR(bounds.high.y, 2 + std::sqrt(5.0), 1e-2);  // between two of 25 frames

@@ -18,13 +18,13 @@ class WavelengthMap : public ::testing::Test {
                                    const glm::dmat4& to_world = glm::dmat4(1)) {
     settings_.wavelength_map = map;
     waves_ = sheet_.waves;
-    take_wavelengths(sheet_.surface, settings_, to_world, waves_);
+    scene::take_wavelengths(sheet_.surface, settings_, to_world, waves_);
     return waves_.wavelength;
   }
   test::TemporaryFolder folder_;
   test::Sheet sheet_ = test::grid(9, 9, 0.1, 0, 1, 0.04);
-  WrinkleSettings settings_ = [] {
-    WrinkleSettings settings;
+  config::WrinkleSettings settings_ = [] {
+    config::WrinkleSettings settings;
     settings.wavelength = 0.04;
     return settings;
   }();

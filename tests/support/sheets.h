@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "mesh/model_units.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "passes/crush.h"
-#include "passes/model_units.h"
 #include "passes/relax.h"
 #include "passes/skin.h"
 #include "passes/surface_buffers.h"
@@ -23,7 +23,7 @@ struct Sheet {
   Surface surface;
   RestFrames rest;
   VertexWaves waves;
-  passes::ModelUnits units;
+  ModelUnits units;
 
   std::size_t size() const { return surface.vertex_count(); }
 };
@@ -66,7 +66,7 @@ class Passes {
   passes::SurfaceBuffers buffers;
 
  private:
-  passes::ModelUnits units_;
+  ModelUnits units_;
   passes::SkinPass skin_;
   passes::CrushPass crush_;
   passes::RelaxPass relax_;

@@ -8,9 +8,9 @@
 
 int main(int argc, char** argv) {
   if (argc > 1) {  // never in the test; the linker does not know
-    plisse::RenderRequest request;
+    pipeline::RenderRequest request;
     request.scene.model.path = argv[1];
-    plisse::render(request, {});
+    pipeline::render(request, {});
   }
   const auto png = plisse::io::encode_png({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}});
   std::cout << "plisse " << plisse::version << ": a PNG of " << png.size() << " bytes\n";

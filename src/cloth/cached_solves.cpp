@@ -1,0 +1,193 @@
+#include "cloth/cached_solves.h"
+
+#include <optional>
+#include <variant>
+
+#include "base/clock.h"
+#include "cloth/archive.h"
+
+namespace plisse::cloth {
+namespace {
+
+constexpr double worth_keeping_s = 0.002;  // looking an answer up takes about as long
+
+template <typename T, typename Of>
+concept Is = std::is_same_v<std::remove_const_t<T>, Of>;
+
+}  // namespace
+
+// Not in the nameless namespace: archives find these by their argument.
+
+// --- what an equilibrium depends on, and what it is
+
+void members(auto& a, Is<shell::Material> auto& value) {
+  auto& [young, poisson, thickness, density] = value;
+  a(young, poisson, thickness, density);
+}
+void members(auto& a, Is<shell::RestFace> auto& value) {
+  auto& [edges, gradients, area] = value;
+  a(edges, gradients, area);
+}
+// Edges, flaps and parts follow from the faces.
+void members(auto& a, Is<shell::Topology> auto& value) {
+  auto& [vertex_count, faces, edges, face_edges, flaps, component, component_count] = value;
+  a(vertex_count, faces);
+}
+void members(auto& a, Is<shell::Shell> auto& value) {
+  auto& [topology, rest, material, stretching, bending, residual, rest_forms] = value;
+  a(topology, rest, material, stretching, bending, residual, rest_forms);
+}
+void members(auto& a, Is<shell::Conditions::Mirror> auto& value) {
+  auto& [axis, at] = value;
+  a(axis, at);
+}
+// What stands where nothing is held is not read.
+void members(auto& a, Is<shell::Conditions> auto& value) {
+  auto& [held, at, mirrors] = value;
+  a(held, shell::Positions(held.select(at, 0.0)), mirrors);
+}
+void members(auto& a, Is<shell::Sphere> auto& value) {
+  auto& [centre, radius] = value;
+  a(centre, radius);
+}
+void members(auto& a, Is<shell::Plane> auto& value) {
+  auto& [point, normal] = value;
+  a(point, normal);
+}
+void members(auto& a, Is<shell::Capsule> auto& value) {
+  auto& [first, second, radius] = value;
+  a(first, second, radius);
+}
+void members(auto& a, Is<shell::Cylinder> auto& value) {
+  auto& [first, second, radius] = value;
+  a(first, second, radius);
+}
+void members(auto& a, Is<shell::Body> auto& value) {
+  a(value->tree().points(), value->tree().triangles());
+}
+void members(auto& a, Is<shell::Obstacle> auto& value) {
+  a(value.index());
+  std::visit([&](auto& body) { a(body); }, value);
+}
+void members(auto& a, Is<shell::Loads> auto& value) {
+  auto& [gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors] = value;
+  a(gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors);
+}
+void members(auto& a, Is<shell::NewtonSettings> auto& value) {
+  auto& [max_iterations, tolerance, max_seconds] = value;
+  a(max_iterations, tolerance, max_seconds);
+}
+void members(auto& a, Is<shell::NewtonStep> auto& value) {
+  auto& [iteration, seconds, energy, gradient_inf, step, shift] = value;
+  a(iteration, seconds, energy, gradient_inf, step, shift);
+}
+void members(auto& a, Is<shell::Equilibrium> auto& value) {
+  auto& [positions, energy, friction, gradient_inf, force_scale, iterations, converged, reason, anchors,
+         trace, assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros] = value;
+  a(positions, energy, friction, gradient_inf, force_scale, iterations, converged, reason, anchors, trace,
+    assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros);
+}
+
+// --- what a field depends on, and what it is
+
+void members(auto& a, Is<wrinkle::FaceForms> auto& value) {
+  auto& [rest, strain, second_form] = value;
+  a(rest, strain, second_form);
+}
+void members(auto& a, Is<wrinkle::Model> auto& value) {
+  auto& [material, v1, v2, curvature_factor, crest_compression, relaxed_integrability] = value;
+  a(material, v1, v2, curvature_factor, crest_compression, relaxed_integrability);
+}
+void members(auto& a, Is<wrinkle::SolveOptions> auto& value) {
+  auto& [max_iterations, kkt, energy, fixed_periods] = value;
+  a(max_iterations, kkt, energy, fixed_periods);
+}
+void members(auto& a, Is<wrinkle::FieldOptions> auto& value) {
+  auto& [solve, frequency, local_law, all_starts] = value;
+  a(solve, frequency, local_law, all_starts);
+}
+void members(auto& a, Is<wrinkle::Waves> auto& value) {
+  auto& [amplitude, phase, period] = value;
+  a(amplitude, phase, period);
+}
+void members(auto& a, Is<wrinkle::SolveStep> auto& value) {
+  auto& [iteration, seconds, energy] = value;
+  a(iteration, seconds, energy);
+}
+void members(auto& a, Is<wrinkle::Solution> auto& value) {
+  auto& [waves, start_energy, energy, kkt, iterations, converged, reason, trace] = value;
+  a(waves, start_energy, energy, kkt, iterations, converged, reason, trace);
+}
+void members(auto& a, Is<wrinkle::FieldStart> auto& value) {
+  auto& [frequency, start_energy, energy, iterations, converged] = value;
+  a(frequency, start_energy, energy, iterations, converged);
+}
+void members(auto& a, Is<wrinkle::WaveCount> auto& value) {
+  auto& [waves, round, length] = value;
+  a(waves, round, length);
+}
+void members(auto& a, Is<wrinkle::Field> auto& value) {
+  auto& [real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, solve_s,
+         phase_s] = value;
+  a(real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, solve_s, phase_s);
+}
+
+namespace {
+
+// With the seconds that it took.
+template <typename Answer>
+std::optional<Answer> answered(const SolvedCache& cache, const Hash& question, Reuse& reuse) {
+  const double began = wall_seconds();
+  const auto bytes = cache.find(question);
+  if (!bytes) return std::nullopt;
+  double seconds = 0;
+  Answer answer;
+  Reader reader(*bytes);
+  reader(seconds, answer);
+  if (!reader.at_end()) return std::nullopt;
+  ++reuse.answers;
+  reuse.saved_s += seconds - (wall_seconds() - began);
+  return answer;
+}
+
+template <typename Answer>
+void keep(const SolvedCache& cache, const Hash& question, const Answer& answer, double seconds) {
+  if (seconds < worth_keeping_s) return;
+  Writer writer;
+  writer(seconds, answer);
+  cache.keep(question, writer.bytes());
+}
+
+}  // namespace
+
+shell::Equilibrium cached_equilibrium(const SolvedCache& cache, Reuse& reuse, const shell::Shell& shell,
+                                      const shell::Conditions& conditions, const shell::Loads& loads,
+                                      const shell::Positions& start, const shell::NewtonSettings& settings,
+                                      const shell::NewtonProgress& progress) {
+  if (!cache.on()) return shell::find_equilibrium(shell, conditions, loads, start, settings, progress);
+  Hash question = SolvedCache::question("equilibrium");
+  Hasher hasher(question);
+  hasher(shell, conditions, loads, start, settings);
+  if (auto known = answered<shell::Equilibrium>(cache, question, reuse)) return std::move(*known);
+  const double began = wall_seconds();
+  shell::Equilibrium found = shell::find_equilibrium(shell, conditions, loads, start, settings, progress);
+  if (found.converged) keep(cache, question, found, wall_seconds() - began);
+  return found;
+}
+
+wrinkle::Field cached_field(const SolvedCache& cache, Reuse& reuse, const shell::Topology& topology,
+                            const std::vector<wrinkle::FaceForms>& forms, const wrinkle::Model& model,
+                            const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped,
+                            const wrinkle::FieldOptions& options) {
+  if (!cache.on()) return wrinkle::solve_field(topology, forms, model, wrinkle_free, clamped, options);
+  Hash question = SolvedCache::question("field");
+  Hasher hasher(question);
+  hasher(topology, forms, model, wrinkle_free, clamped, options);
+  if (auto known = answered<wrinkle::Field>(cache, question, reuse)) return std::move(*known);
+  const double began = wall_seconds();
+  wrinkle::Field found = wrinkle::solve_field(topology, forms, model, wrinkle_free, clamped, options);
+  if (found.real.converged && found.whole.converged) keep(cache, question, found, wall_seconds() - began);
+  return found;
+}
+
+}  // namespace plisse::cloth

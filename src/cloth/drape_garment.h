@@ -1,0 +1,33 @@
+// Garments of sewn panels as shells: the rest shape in flat panels, the base surface sewn.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/drape_mesh.h"
+#include "sizing/garment.h"
+
+namespace plisse::cloth {
+
+struct SewnGarment {
+  FlatMesh rest;                       // panels in their own coordinates, z = 0, one after the other
+  std::vector<std::size_t> panel;      // of each rest vertex
+  std::vector<std::uint32_t> base_of;  // of each rest vertex
+  std::uint32_t count = 0;             // of base vertices
+  std::vector<shell::Face> faces;      // of the base; face i is rest face i
+
+  // Base positions from those of the rest vertices: the mean where they are sewn.
+  shell::Positions sewn(const shell::Positions& rest_placed) const;
+};
+
+// As finely as its fabrics ask for. Throws what sizing::mesh_garment does.
+SewnGarment sew_garment(const sizing::Garment& garment, const sizing::SizingOptions& options);
+
+// The same with about this many vertices. Throws Error(bad_input) where panels have holes or features.
+SewnGarment sew_garment(const sizing::Garment& garment, int vertices, std::uint32_t seed);
+
+// Where panels start: each bent round an upright cylinder of this radius, its x along the circumference and
+// its x = 0 in front (+z) of the axis, or left flat (0); then turned and moved as it is placed.
+shell::Positions placed(const SewnGarment& sewn, const sizing::Garment& garment, double wrap);
+
+}  // namespace plisse::cloth

@@ -1,0 +1,206 @@
+#include "cloth/wrinkle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "cloth/cached_solves.h"
+#include "cloth/drape.h"
+#include "cloth/wrinkle_files.h"
+#include "io/ply.h"
+#include "io/wrinkle_field.h"
+#include "shell/carry.h"
+
+namespace plisse::cloth {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error bad(const fs::path& file, const std::string& what) {
+  return {ExitCode::bad_input, fmt::format("{}: {}", file.string(), what)};
+}
+
+// "young 1e7" among a PLY's comments.
+double value_in(const io::Ply& ply, const fs::path& file, const std::string& name) {
+  for (const std::string& comment : ply.comments) {
+    if (!comment.starts_with(name + " ")) continue;
+    if (const auto value = parse_number(comment.substr(name.size() + 1))) return *value;
+  }
+  throw bad(file, fmt::format("has no comment '{} VALUE'; a base surface of 'plisse drape' is wanted", name));
+}
+
+}  // namespace
+
+wrinkle::Model model_of(const WrinkleRequest& request) {
+  return {request.scene.material,
+          request.v1,
+          request.v2,
+          request.curvature_factor,
+          request.crest_compression,
+          request.relaxed_integrability};
+}
+
+WrinkleScene read_base(const fs::path& file) {
+  const io::Ply ply = io::read_ply(file);
+  const io::PlyElement *vertex = ply.find("vertex"), *face = ply.find("face");
+  if (!vertex || !face) throw bad(file, "a base surface needs the elements 'vertex' and 'face'");
+  for (const std::string& comment : ply.comments)
+    if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
+  const io::PlyProperty *corners = face->find("vertex_indices"), *flat = face->find("rest");
+  if (!corners || !corners->list || !flat || !flat->list)
+    throw bad(
+        file,
+        "has no lists 'vertex_indices' and 'rest' of its faces; a base surface of 'plisse drape' is wanted");
+  WrinkleScene scene;
+  scene.name = file.stem().string();
+  scene.material = {value_in(ply, file, "young"), value_in(ply, file, "poisson"),
+                    value_in(ply, file, "thickness"), 0};
+  shell::check(scene.material);
+  std::vector<shell::Face> faces;
+  for (std::size_t f = 0; f < face->count; ++f) {
+    if (corners->ends[f] != 3 * (f + 1) || flat->ends[f] != 6 * (f + 1))
+      throw bad(file, fmt::format("face {}: three corners and six rest coordinates are wanted", f));
+    shell::Face corner{};
+    Eigen::Matrix<double, 2, 3> rest;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double index = corners->values[3 * f + c];
+      if (!(index >= 0 && index < static_cast<double>(vertex->count)))
+        throw bad(file, fmt::format("face {}: there is no vertex {}", f, index));
+      corner[c] = static_cast<std::uint32_t>(index);
+      rest.col(static_cast<Eigen::Index>(c)) << flat->values[6 * f + 2 * c], flat->values[6 * f + 2 * c + 1];
+    }
+    faces.push_back(corner);
+    scene.surface.rest.push_back(shell::rest_face(rest, f));
+  }
+  scene.surface.topology = shell::build_topology(std::move(faces), vertex->count);
+  scene.surface.positions.resize(3, static_cast<Eigen::Index>(vertex->count));
+  const char* const axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& along = io::ply_values(*vertex, {axes[axis]}, file.string());
+    for (std::size_t v = 0; v < vertex->count; ++v)
+      scene.surface.positions(axis, static_cast<Eigen::Index>(v)) = along[v];
+  }
+  scene.held.assign(vertex->count, false);
+  if (const io::PlyProperty* held = vertex->find("held")) {
+    for (std::size_t v = 0; v < vertex->count; ++v) scene.held[v] = held->values[v] != 0;
+  }
+  return scene;
+}
+
+WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
+  shell::Shell shell = shell_of(scene);
+  const shell::Conditions conditions = scene.conditions(1);
+  WrinkleScene result{scene.name, {}, scene.material, {}};
+  result.surface.positions = scene.start;
+  if (!scene.solved) {
+    const SolvedCache answers(cache);
+    Reuse reuse;
+    DrapeState state(scene);
+    for (int n = 1; n <= scene.frames; ++n) {  // the load's steps
+      const shell::Equilibrium drape =
+          solve_frame(scene, shell, n, state, answers, reuse,
+                      [](const shell::NewtonStep&, const shell::Positions&) { return !interrupted(); });
+      if (!drape.converged && (n == scene.frames || interrupted()))
+        throw Error(ExitCode::check_failed,
+                    fmt::format("{}: the base surface did not converge: {}", scene.name, drape.reason));
+      if (!drape.converged)
+        log::info(fmt::format("{}: frame {} on the way did not converge: {}", scene.name, n, drape.reason));
+      log::info(fmt::format("{}: frame {} of the base surface in {} steps", scene.name, n, drape.iterations));
+    }
+    result.surface.positions = state.positions;
+  }
+  for (Eigen::Index v = 0; v < conditions.held.cols(); ++v)
+    result.held.push_back(conditions.held.col(v).all());
+  result.held.resize(shell.topology.vertex_count, false);
+  result.surface.topology = std::move(shell.topology);
+  result.surface.rest = std::move(shell.rest);
+  return result;
+}
+
+WrinkleReport wrinkle_field(const WrinkleRequest& request) {
+  const double began = wall_seconds();
+  check_outputs(request);
+  const wrinkle::BaseSurface& surface = request.scene.surface;
+  const auto forms = wrinkle::face_forms(surface, request.curvature);
+  const auto free = wrinkle::wrinkle_free_faces(forms, surface.topology, request.rule);
+  WrinkleReport report;
+  report.vertices = surface.topology.vertex_count;
+  report.faces = surface.topology.faces.size();
+  report.wrinkle_free_faces = static_cast<std::size_t>(std::count(free.begin(), free.end(), true));
+  Reuse reuse;
+  report.field =
+      cached_field(SolvedCache(request.cache), reuse, surface.topology, forms, model_of(request), free,
+                   request.pin_held ? request.scene.held : std::vector<bool>{}, request.options);
+  report.from_cache = reuse.answers > 0;
+  report.saved_s = reuse.saved_s;
+  report.released_faces =
+      static_cast<std::size_t>(std::count(report.field.released.begin(), report.field.released.end(), true));
+  const Eigen::VectorXd& amplitude = report.field.whole.waves.amplitude;
+  if (!amplitude.allFinite() || !report.field.one_form.allFinite())
+    throw Error(ExitCode::check_failed, fmt::format("{}: the field is not finite", request.scene.name));
+  report.max_amplitude = amplitude.size() > 0 ? amplitude.maxCoeff() : 0;
+  report.wrinkled_vertices =
+      static_cast<std::size_t>((amplitude.array() > 0.01 * report.max_amplitude).count());
+  if (!request.output.empty()) {
+    const wrinkle::Solution& last = report.field.real.converged ? report.field.whole : report.field.real;
+    write_field(request.output, surface, {amplitude, report.field.phase}, report.field.one_form,
+                last.converged ? "" : last.reason);
+    report.outputs.push_back({request.output, "field"});
+  }
+  if (!request.mesh.empty()) {
+    const double upsampling = wall_seconds();
+    const WrinkleMesh mesh = mesh_of(request, forms, {amplitude, report.field.phase});
+    report.levels = mesh.levels;
+    report.upsample_s = wall_seconds() - upsampling;
+    io::write_mesh(request.mesh, mesh.file);
+    report.outputs.push_back({request.mesh, "mesh"});
+  }
+  report.wall_s = wall_seconds() - began;
+  return report;
+}
+
+WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const fs::path& amplitude,
+                                 const fs::path& one_form) {
+  const wrinkle::BaseSurface& surface = request.scene.surface;
+  const auto read = [](const fs::path& path, std::size_t count, std::string_view what) {
+    const auto numbers = io::read_numbers(path, count, what);
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(count)));
+  };
+  const Eigen::VectorXd a = read(amplitude, surface.topology.vertex_count, "vertices"),
+                        omega = read(one_form, surface.topology.edges.size(), "edges");
+  for (Eigen::Index v = 0; v < a.size(); ++v)
+    if (a[v] < 0)
+      throw bad(amplitude, fmt::format("line {}: {:g} is below 0, which no amplitude is", v + 1, a[v]));
+  const auto forms = wrinkle::face_forms(surface, request.curvature);
+  const wrinkle::Problem problem(surface.topology, forms, model_of(request),
+                                 wrinkle::wrinkle_free_faces(forms, surface.topology, request.rule),
+                                 request.pin_held ? request.scene.held : std::vector<bool>{});
+  Eigen::VectorXd first;
+  WrinkleEvaluation result;
+  const double excess = problem.one_form_energy(a, omega, first);
+  result.energy = excess + problem.relaxed_energy();
+  if (!std::isfinite(result.energy))
+    throw bad(amplitude,
+              "the field's energy is not finite: its numbers are out of all proportion to the surface");
+  const wrinkle::Waves waves{a, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.complex().vertices)),
+                             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.complex().periods))};
+  result.kkt = wrinkle::kkt_residual(problem, problem.pack(waves), excess, first);
+  for (std::size_t f = 0; f < surface.topology.faces.size(); ++f) {
+    if (!problem.complex().live[f]) continue;  // need not close
+    double round = 0;
+    for (std::size_t side = 0; side < 3; ++side)
+      round += wrinkle::side_sign(surface.topology, f, side) *
+               omega[wrinkle::side_edge(surface.topology, f, side)];
+    result.curl_max = std::max(result.curl_max, std::abs(round));
+  }
+  return result;
+}
+
+}  // namespace plisse::cloth

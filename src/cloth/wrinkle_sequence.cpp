@@ -1,0 +1,145 @@
+#include "cloth/wrinkle_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/atomic_file.h"
+#include "base/clock.h"
+#include "base/eigen_glm.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "cloth/wrinkle_files.h"
+#include "config/frames.h"
+#include "io/import.h"
+#include "io/sequence.h"
+
+namespace plisse::cloth {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Not by the waves of each frame: all frames have one mesh.
+constexpr int sequence_levels = 3;
+
+// Base surfaces one after the other.
+class Bases {
+ public:
+  explicit Bases(const WrinkleSequenceRequest& request) {
+    if (config::is_frame_pattern(request.bases.string())) {
+      if (!request.cache.empty())
+        throw Error(ExitCode::bad_input, "--cache moves one base.ply, not a sequence of them");
+      files_ = io::sequence_files(request.bases);
+      first_ = read_base(files_.front());
+    } else {
+      first_ = read_base(request.bases);
+      io::ImportOptions options;
+      options.cache = request.cache;
+      cache_ = io::import_model(request.bases, options).cache;
+    }
+  }
+
+  int count() const { return static_cast<int>(files_.empty() ? cache_.size() : files_.size()); }
+  const WrinkleScene& first() const { return first_; }
+  const std::vector<fs::path>& files() const { return files_; }
+
+  WrinkleScene read(int frame) const {
+    const auto index = static_cast<std::size_t>(frame - 1);
+    if (!files_.empty()) {
+      WrinkleScene scene = read_base(files_[index]);
+      if (scene.surface.topology.faces != first_.surface.topology.faces ||
+          scene.surface.positions.cols() != first_.surface.positions.cols())
+        throw Error(ExitCode::bad_input, fmt::format("{}: has another mesh than {}", files_[index].string(),
+                                                     files_.front().string()));
+      if (scene.held != first_.held)
+        throw Error(ExitCode::bad_input, fmt::format("{}: holds other vertices than {}",
+                                                     files_[index].string(), files_.front().string()));
+      return scene;
+    }
+    WrinkleScene scene = first_;
+    scene.surface.positions = points_to_eigen(*cache_.frame(index));
+    return scene;
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  io::VertexCache cache_;
+  WrinkleScene first_;
+};
+
+void check_pattern(const fs::path& path, std::size_t frames) {
+  if (!path.empty() && frames > 1 && !config::is_frame_pattern(path.string()))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: one file for {} frames; give it a place for the number: '{}'", path.string(),
+                            frames, path.stem().string() + "_####" + path.extension().string()));
+}
+
+fs::path numbered(const fs::path& pattern, int frame) {
+  return pattern.empty() ? pattern : fs::path(config::numbered_path(pattern.string(), frame));
+}
+
+}  // namespace
+
+WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
+  const double began = wall_seconds();
+  const Bases bases(request);
+  const std::vector<int> picked = config::select_frames(request.frames, bases.count());
+  WrinkleRequest each = request.each;
+  for (const fs::path& pattern : {each.output, each.mesh}) check_pattern(pattern, picked.size());
+  each.output = numbered(request.each.output, picked.front());
+  each.mesh = numbered(request.each.mesh, picked.front());
+  check_outputs(each);
+
+  if (!each.levels) each.levels = sequence_levels;
+  const shell::Topology& topology = bases.first().surface.topology;
+  each.scene = bases.first();
+  wrinkle::SequenceOptions options;
+  options.field = each.options;
+  options.fade = request.fade;
+  options.hysteresis = request.hysteresis;
+  wrinkle::FieldSequence sequence(topology, model_of(each),
+                                  each.pin_held ? each.scene.held : std::vector<bool>{}, options);
+  WrinkleSequenceReport report;
+  report.vertices = topology.vertex_count;
+  report.faces = topology.faces.size();
+  for (int n = 1; n <= picked.back() && !report.interrupted; ++n) {
+    each.scene = bases.read(n);
+    const wrinkle::BaseSurface& surface = each.scene.surface;
+    const auto forms = wrinkle::face_forms(surface, each.curvature);
+    const auto free = wrinkle::wrinkle_free_faces(forms, topology, each.rule);
+    WrinkleSequenceFrame frame;
+    frame.frame = n;
+    frame.solved = sequence.next(forms, free);
+    frame.wrinkle_free_faces = static_cast<std::size_t>(std::count(free.begin(), free.end(), true));
+    const wrinkle::CoarseField field = std::move(frame.solved.field);
+    if (!field.amplitude.allFinite() || !frame.solved.one_form.allFinite())
+      throw Error(ExitCode::check_failed, fmt::format("frame {}: the field is not finite", n));
+    frame.max_amplitude = field.amplitude.maxCoeff();
+    report.converged = report.converged && frame.solved.converged;
+    if (std::find(picked.begin(), picked.end(), n) != picked.end()) {
+      if (!request.each.output.empty()) {
+        const fs::path path = numbered(request.each.output, n);
+        write_field(path, surface, field, frame.solved.one_form,
+                    frame.solved.converged ? "" : frame.solved.reason);
+        report.outputs.push_back({{path, "field"}, n});
+      }
+      if (!request.each.mesh.empty()) {
+        const double upsampling = wall_seconds();
+        const WrinkleMesh mesh = mesh_of(each, forms, field);
+        report.levels = mesh.levels;
+        frame.upsample_s = wall_seconds() - upsampling;
+        const fs::path path = numbered(request.each.mesh, n);
+        io::write_mesh(path, mesh.file);
+        report.outputs.push_back({{path, "mesh"}, n});
+      }
+    }
+    report.frames.push_back(std::move(frame));
+    if (request.progress) request.progress(n, picked.back());
+    report.interrupted = interrupted();
+  }
+  report.wall_s = wall_seconds() - began;
+  return report;
+}
+
+}  // namespace plisse::cloth

@@ -1,0 +1,48 @@
+// plisse wrinkle over time: base surfaces frame by frame → fields that glide with them → field files and
+// meshes.
+#pragma once
+
+#include <functional>
+
+#include "cloth/wrinkle.h"
+#include "wrinkle/sequence.h"
+
+namespace plisse::cloth {
+
+struct WrinkleSequenceRequest {
+  // What holds for every frame; its scene is not looked at. output and mesh are patterns. levels: 3 where
+  // none are given, so that all frames have one mesh.
+  WrinkleRequest each;
+  std::filesystem::path bases;  // base_####.ply, or one base.ply, that `cache` moves
+  std::filesystem::path cache;  // .pc2 or .mdd; empty: none
+  std::string frames;           // a selection; empty: all. Those before the last are solved all the same.
+  int fade = 6;                 // see wrinkle::SequenceOptions
+  double hysteresis = 9;
+  // After every frame: which, of how many.
+  std::function<void(int frame, int frames)> progress;
+};
+
+struct WrinkleSequenceFrame {
+  int frame = 1;
+  wrinkle::SequenceFrame solved;  // its field is moved into the files
+  std::size_t wrinkle_free_faces = 0;
+  double max_amplitude = 0;  // metres
+  double upsample_s = 0;
+};
+
+struct WrinkleSequenceReport {
+  std::size_t vertices = 0, faces = 0;
+  int levels = 0;                            // of the meshes
+  std::vector<WrinkleSequenceFrame> frames;  // from the first to the last that was asked for
+  struct Output : WrinkleOutput {
+    int frame = 1;
+  };
+  std::vector<Output> outputs;
+  bool converged = true, interrupted = false;
+  double wall_s = 0;
+};
+
+// Throws Error, (bad_input) also where frames have different meshes.
+WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request);
+
+}  // namespace plisse::cloth

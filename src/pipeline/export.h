@@ -1,0 +1,37 @@
+// plisse export: the wrinkles as geometry for other programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/render.h"
+
+namespace plisse::pipeline {
+
+struct ExportRequest {
+  config::SceneSettings scene;
+  std::string output;         // mesh_####.ply|obj|glb, or CACHE.pc2|mdd
+  std::optional<int> levels;  // how often edges are halved; none: as the waves need it
+  std::string outside;        // a body that the waves keep out of; empty: none
+  int device = -1;
+  std::string shader_folder;
+};
+
+struct ExportReport {
+  struct Output {
+    std::string path, kind;  // mesh | cache
+    int frame = 0;           // 0 for a cache
+  };
+  std::vector<Output> outputs;
+  int levels = 0;
+  std::size_t positions = 0, triangles = 0;
+  bool interrupted = false;  // meshes written so far stand; a cache does not
+  double wall_s = 0;
+};
+
+// The displaced surface of each frame: metres, y up. Meshes have normals, uv and the materials' names; a
+// cache counts the vertices as an OBJ of the same scene and levels does.
+ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame);
+
+}  // namespace plisse::pipeline

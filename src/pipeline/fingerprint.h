@@ -1,0 +1,24 @@
+// Fingerprints: what decides a frame's pixels and the state of the passes after a step (docs/contract.md).
+#pragma once
+
+#include <vector>
+
+#include "base/hash.h"
+#include "mesh/vertex_waves.h"
+#include "passes/render.h"
+#include "scene/animation.h"
+
+namespace plisse::pipeline {
+
+class LoadedScene;
+
+// Decides the state before the first step: the surface, its waves, and the settings of crush and relax.
+Hash start_hash(const LoadedScene& scene);
+// Decides what all frames have in common beyond their history: materials, textures, look, size.
+Hash constants_hash(const LoadedScene& scene);
+
+void add_pose(Hash& hash, const scene::Pose& pose);
+void add_field(Hash& hash, const std::vector<FieldTriangle>& field);
+void add_view(Hash& hash, const passes::View& view);
+
+}  // namespace plisse::pipeline

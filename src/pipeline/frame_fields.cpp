@@ -1,0 +1,40 @@
+#include "pipeline/frame_fields.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "config/frames.h"
+#include "io/import_place.h"
+#include "io/sequence.h"
+#include "io/wrinkle_field.h"
+#include "paint/field.h"
+
+namespace plisse::pipeline {
+
+FrameFields::FrameFields(const config::SceneSettings& settings, int frame_count, std::vector<double> mask)
+    : mesh_(settings.model.path), files_(io::sequence_files(settings.bias.field)), mask_(std::move(mask)) {
+  const auto frames = static_cast<std::size_t>(frame_count);
+  if (files_.size() != frames) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: there are {} fields, {} to {}, but the clip has {} frames; each needs one",
+                            settings.bias.field.string(), files_.size(), files_.front().filename().string(),
+                            files_.back().filename().string(), frames));
+  }
+  if (std::filesystem::is_directory(mesh_) || config::names_many_files(mesh_))
+    meshes_ = io::sequence_files(mesh_);
+}
+
+std::vector<FieldTriangle> FrameFields::over(const Surface& surface, const io::Model& model,
+                                             const std::vector<glm::dvec3>& positions, int frame) const {
+  const auto index = static_cast<std::size_t>(frame - 1);
+  Surface base = surface;
+  base.rest = positions;
+  const auto file = io::read_wrinkle_field(files_.at(index), index < meshes_.size() ? meshes_[index] : mesh_);
+  const auto field =
+      paint::field_on(base, file, io::file_to_world(model.up, model.metres_per_unit), files_[index].string());
+  return paint::field_directly(base, rest_frames(base), field, mask_);
+}
+
+}  // namespace plisse::pipeline

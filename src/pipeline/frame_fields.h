@@ -1,0 +1,34 @@
+// Solved wrinkle fields in files, one for every frame of a sequence of base surfaces.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "config/settings.h"
+#include "io/model.h"
+#include "mesh/surface.h"
+#include "mesh/vertex_waves.h"
+
+namespace plisse::pipeline {
+
+class FrameFields {
+ public:
+  FrameFields() = default;  // none
+  // The files that settings.bias.field names. `mask`: the part of each welded vertex that wrinkles. Throws
+  // Error(bad_input) where there are not as many as frames.
+  FrameFields(const config::SceneSettings& settings, int frame_count, std::vector<double> mask);
+
+  bool empty() const { return files_.empty(); }
+  // The waves of a frame (from 1) on the surface whose welded vertices are at `positions` then, metres.
+  // Throws Error(bad_input) where the field is none of that surface.
+  std::vector<FieldTriangle> over(const Surface& surface, const io::Model& model,
+                                  const std::vector<glm::dvec3>& positions, int frame) const;
+
+ private:
+  std::filesystem::path mesh_;                         // the model's own file
+  std::vector<std::filesystem::path> files_, meshes_;  // meshes: for text files, the OBJ that each belongs to
+  std::vector<double> mask_;
+};
+
+}  // namespace plisse::pipeline
