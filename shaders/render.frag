@@ -25,7 +25,7 @@ uniform bool has_alpha;
 #endif
 layout(location = 0) out vec4 colour;
 #ifdef AOV
-uniform int aov;              // one of AOV_… of common/constants.glsl
+uniform int aov;              // one of AOV_…, which src/passes/aov.cpp lists
 uniform float object;
 uniform vec3 view_forward;
 #endif

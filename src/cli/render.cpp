@@ -16,6 +16,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "mesh/subdivide.h"
+#include "passes/aov.h"
 #include "pipeline/render.h"
 
 namespace plisse::cli {
@@ -25,11 +26,9 @@ using nlohmann::ordered_json;
 
 struct Arguments {
   explicit Arguments(CommandOptions& options) : scene(options), device(options), common(options) {
-    options.add(
-        "--aov", aovs, Values::with_commas, "NAMES",
-        described("Pictures of data beside each frame, as EXR and PNG: height, normal, amplitude, "
-                  "phase, direction, tension, depth, object (its number), beauty (the picture in linear "
-                  "light), or several with commas"));
+    options.add("--aov", aovs, Values::with_commas, "NAMES",
+                described("Pictures of data beside each frame, as EXR and PNG: " + passes::aov_list() +
+                          ", or several with commas"));
     options.flag(
         "--displace", displace,
         described("Draw the wrinkles as geometry in place of shading: true silhouettes and shadows"));

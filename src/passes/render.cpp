@@ -517,6 +517,8 @@ void RenderPass::draw_aov(const SurfaceBuffers& surface, const View& view, const
   if (aov_.empty()) {
     gpu::Defines defines = surface_defines();
     defines.emplace_back("AOV", "1");
+    const gpu::Defines kinds = aov_defines();
+    defines.insert(defines.end(), kinds.begin(), kinds.end());
     aov_ = make_programs({"render.vert", "render.frag"}, defines);
   }
   glDisable(GL_FRAMEBUFFER_SRGB);

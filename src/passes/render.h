@@ -12,6 +12,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/target.h"
+#include "passes/aov.h"
 #include "passes/part_shapes.h"
 #include "passes/profile.h"
 #include "passes/profile_texture.h"
@@ -68,18 +69,6 @@ struct LeftOut {
   int too_fine = 0;    // every wave is shorter than two pixels: only roughness shows them
   int flat = 0;        // no wave anywhere
   int untextured = 0;  // no parallax: there is nothing that it would shift
-};
-
-enum class Aov {
-  height = 0,
-  normal = 1,
-  amplitude = 2,
-  phase = 3,
-  direction = 4,
-  tension = 5,
-  depth = 6,
-  object = 7,  // 1 + the number of the part
-  beauty = 8,  // the picture in linear light; by draw, not draw_aov
 };
 
 class RenderPass {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -17,49 +16,15 @@
 namespace plisse::pipeline {
 namespace {
 
-const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names{"height",  "normal", "amplitude", "phase", "direction",
-                                              "tension", "depth",  "object",    "beauty"};
+std::vector<std::string> aov_names() {
+  std::vector<std::string> names;
+  for (const passes::AovKind& kind : passes::aov_kinds()) names.push_back(kind.name);
   return names;
-}
-
-bool is_vector(passes::Aov aov) {
-  return aov == passes::Aov::normal || aov == passes::Aov::direction;
-}
-
-// 0…1 for the picture to look at. `scale`: what counts as large for this quantity.
-glm::vec3 shown(passes::Aov aov, const glm::vec3& value, float scale) {
-  switch (aov) {
-    case passes::Aov::normal:
-    case passes::Aov::direction:
-      return 0.5F * value + 0.5F;
-    case passes::Aov::height:
-      return glm::vec3(0.5F + 0.5F * value.x / scale);
-    case passes::Aov::phase: {  // a hue circle, so that −π and π look alike
-      const auto hue = [&](float shift) { return 0.5F + 0.5F * std::cos(value.x - shift); };
-      const float third = 2.0F * std::numbers::pi_v<float> / 3.0F;
-      return {hue(0), hue(third), hue(-third)};
-    }
-    case passes::Aov::tension:  // grey at rest, red where compressed, blue where stretched
-      return value.x >= 0 ? glm::vec3(0.75F, 0.75F - 2 * value.x, 0.75F - 2 * value.x)
-                          : glm::vec3(0.75F + 2 * value.x, 0.75F + 2 * value.x, 0.75F);
-    case passes::Aov::object: {  // hues far apart for numbers that follow each other
-      const float hue = 6.2831853F * std::fmod(value.x * 0.61803399F, 1.0F);
-      return {0.55F + 0.4F * std::cos(hue), 0.55F + 0.4F * std::cos(hue - 2.0944F),
-              0.55F + 0.4F * std::cos(hue + 2.0944F)};
-    }
-    case passes::Aov::amplitude:
-    case passes::Aov::depth:
-    case passes::Aov::beauty:
-      break;
-  }
-  return glm::vec3(value.x / scale);
 }
 
 // "frames/frame_0001.png" → "frames/frame_0001.height".
 std::string stem_of(const std::string& frame_path, passes::Aov aov) {
-  return std::filesystem::path(frame_path).replace_extension().string() + "." +
-         aov_names()[static_cast<std::size_t>(aov)];
+  return std::filesystem::path(frame_path).replace_extension().string() + "." + passes::kind_of(aov).name;
 }
 
 }  // namespace
@@ -67,13 +32,14 @@ std::string stem_of(const std::string& frame_path, passes::Aov aov) {
 std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names) {
   std::vector<passes::Aov> aovs;
   for (const auto& name : names) {
-    const auto at = std::find(aov_names().begin(), aov_names().end(), name);
-    if (at == aov_names().end()) {
+    const auto kinds = passes::aov_kinds();
+    const auto at = std::ranges::find(kinds, name, &passes::AovKind::name);
+    if (at == kinds.end()) {
       throw Error(ExitCode::bad_input,
                   fmt::format("--aov {}: there is no such output{}; there are: {}", name,
                               config::did_you_mean(name, aov_names()), fmt::join(aov_names(), ", ")));
     }
-    aovs.push_back(static_cast<passes::Aov>(at - aov_names().begin()));
+    aovs.push_back(at->aov);
   }
   return aovs;
 }
@@ -102,10 +68,10 @@ void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View&
     }
     pass_.draw_aov(surface, view, target_, aov);
     const std::vector<float> rgba = target_.read_rgba32f();
-    const bool length =
-        aov == passes::Aov::height || aov == passes::Aov::amplitude || aov == passes::Aov::depth;
-    const float unit = length ? static_cast<float>(scene_.units.metres) : 1.0F;
-    const int channels = is_vector(aov) ? 3 : 1;
+    const passes::AovKind& kind = passes::kind_of(aov);
+    const auto metres = static_cast<float>(scene_.units.metres);
+    const float unit = kind.power_of_metres > 0 ? metres : kind.power_of_metres < 0 ? 1 / metres : 1.0F;
+    const int channels = kind.channels;
     std::vector<float> values;
     values.reserve(rgba.size() / 4 * static_cast<std::size_t>(channels));
     float largest = 0;
@@ -113,13 +79,12 @@ void AovWriter::write(const passes::SurfaceBuffers& surface, const passes::View&
       for (int c = 0; c < channels; ++c) values.push_back(rgba[i + static_cast<std::size_t>(c)] * unit);
       largest = std::max(largest, std::abs(rgba[i]) * unit);
     }
-    const float scale =
-        aov == passes::Aov::depth ? std::max(largest, 1e-30F) : static_cast<float>(scene_.wavelength() / 4);
+    const float scale = kind.scale(static_cast<float>(scene_.wavelength()), largest);
     io::Image picture{width, height, std::vector<std::uint8_t>(rgba.size())};
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
       const bool covered = rgba[i + 3] > 0;
       const glm::vec3 value =
-          glm::clamp(shown(aov, glm::vec3(rgba[i], rgba[i + 1], rgba[i + 2]) * unit, scale), 0.0F, 1.0F);
+          glm::clamp(kind.shown(glm::vec3(rgba[i], rgba[i + 1], rgba[i + 2]) * unit, scale), 0.0F, 1.0F);
       for (int c = 0; c < 3; ++c) {
         picture.rgba[i + static_cast<std::size_t>(c)] =
             covered ? static_cast<std::uint8_t>(std::lround(255 * value[c])) : 0;

@@ -12,8 +12,7 @@
 
 namespace plisse::pipeline {
 
-// height, normal, amplitude, phase, direction, tension, depth, object, beauty. Throws Error(bad_input) for
-// another name.
+// By the names of passes/aov.cpp's table. Throws Error(bad_input) for another name.
 std::vector<passes::Aov> parse_aovs(const std::vector<std::string>& names);
 
 // Beside the frame `name.png`: `name.height.exr` (metres, unit vectors, radians in (−π, π], 1 − r, or for

@@ -3,6 +3,7 @@
 #include "pipeline/render.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
@@ -173,14 +174,14 @@ std::string body_fingerprint(const std::string& body) {
 
 // Displaced geometry has these of its own; the others are of single waves.
 void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
-  using passes::Aov;
-  for (const Aov aov : aovs) {
-    if (displaced && (aov == Aov::phase || aov == Aov::direction || aov == Aov::tension)) {
-      throw Error(
-          ExitCode::bad_input,
-          "--aov: phase, direction and tension do not go with --displace; height, normal, amplitude and "
-          "depth do");
-    }
+  if (!displaced) return;
+  std::vector<std::string> sound, unsound;
+  for (const passes::AovKind& kind : passes::aov_kinds())
+    (kind.of_one_wave ? unsound : sound).push_back(kind.name);
+  for (const passes::Aov aov : aovs) {
+    if (passes::kind_of(aov).of_one_wave)
+      throw Error(ExitCode::bad_input, fmt::format("--aov: {} do not go with --displace; {} do",
+                                                   fmt::join(unsound, ", "), fmt::join(sound, ", ")));
   }
 }
 
