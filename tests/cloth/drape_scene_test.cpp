@@ -17,7 +17,7 @@ namespace {
 
 // Two squares, cut apart in the rest mesh, that cur_mesh sews along x = 1: its faces are taken, the start is
 // the rest pieces with the seam halfway between its two sides.
-TEST(cloth::DrapeScene, SetUpsAreSewnAsCurMeshSays) {
+TEST(DrapeScene, SetUpsAreSewnAsCurMeshSays) {
   const TemporaryFolder folder;
   write_text(folder / "rest.obj",
              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.2 0 0\nv 2 0 0\nv 2 1 0\nv 1.2 1 0\n"
@@ -36,7 +36,7 @@ TEST(cloth::DrapeScene, SetUpsAreSewnAsCurMeshSays) {
 }
 
 // Bending stiffness and stiffness against stretching are the fabric's, whatever it tells of its thickness.
-TEST(cloth::DrapeScene, FabricsBecomePlates) {
+TEST(DrapeScene, FabricsBecomePlates) {
   for (const sizing::Fabric& fabric : sizing::fabrics()) {
     const cloth::FabricMaterial made = cloth::material_of(fabric, {}, {});
     const double bending = std::sqrt(fabric.weft.bending * fabric.warp.bending);
@@ -58,7 +58,7 @@ TEST(cloth::DrapeScene, FabricsBecomePlates) {
   EXPECT_NEAR(cloth::material_of(denim, {}, {}).material.thickness, 2e-3, 1e-15);
 }
 
-TEST(cloth::DrapeScene, AFabricSaysHowFineItsPanelIs) {
+TEST(DrapeScene, AFabricSaysHowFineItsPanelIs) {
   const TemporaryFolder folder;
   const auto vertices = [&](const std::string& fabric) {
     write_text(folder / "cloth.toml",
@@ -72,7 +72,7 @@ TEST(cloth::DrapeScene, AFabricSaysHowFineItsPanelIs) {
 }
 
 // A garment is made of what its file says, unless the scene says otherwise.
-TEST(cloth::DrapeScene, GarmentsAreOfTheirFabric) {
+TEST(DrapeScene, GarmentsAreOfTheirFabric) {
   const TemporaryFolder folder;
   write_text(
       folder / "p.toml",
@@ -93,7 +93,7 @@ TEST(cloth::DrapeScene, GarmentsAreOfTheirFabric) {
 
 // With a number of vertices or as fine as its fabric asks for; where the scene has no seed, its file's
 // counts.
-TEST(cloth::DrapeScene, TheSeedMeshesAGarmentToo) {
+TEST(DrapeScene, TheSeedMeshesAGarmentToo) {
   const TemporaryFolder folder;
   const auto rest = [&](const std::string& in_panels, const std::string& in_scene) {
     write_text(folder / "p.toml",
@@ -113,7 +113,7 @@ TEST(cloth::DrapeScene, TheSeedMeshesAGarmentToo) {
 }
 
 // In place of youngs_modulus and thickness.
-TEST(cloth::DrapeScene, SetUpsMayNameAFabric) {
+TEST(DrapeScene, SetUpsMayNameAFabric) {
   const TemporaryFolder folder;
   write_text(folder / "rest.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   write_text(folder / "setup.json", R"({"fabric": "khaki", "density": 0, "rest_mesh": "rest.obj"})");
@@ -125,7 +125,7 @@ TEST(cloth::DrapeScene, SetUpsMayNameAFabric) {
 }
 
 // A body of our own making: closed, of 27,000 triangles, and it moves without going through itself.
-TEST(cloth::DrapeScene, TheTorsoIsABody) {
+TEST(DrapeScene, TheTorsoIsABody) {
   const auto faces = cloth::torso_faces();
   EXPECT_EQ(faces.size(), 27000U);
   for (const double t : {0.0, 0.25, 0.75, 1.0}) {
@@ -139,7 +139,7 @@ TEST(cloth::DrapeScene, TheTorsoIsABody) {
 }
 
 // Panels bent round a cylinder lie on it, at the height they have in the flat.
-TEST(cloth::DrapeScene, GarmentsAreWrapped) {
+TEST(DrapeScene, GarmentsAreWrapped) {
   sizing::Garment garment;
   sizing::Panel panel;
   panel.fabric = sizing::fabrics().front();

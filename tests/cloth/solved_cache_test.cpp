@@ -31,7 +31,7 @@ cloth::DrapeReport draped(const cloth::DrapeScene& scene, const fs::path& output
   return cloth::drape({scene, "", output, {}, cache});
 }
 
-TEST(cloth::SolvedCache, ABaseSurfaceIsSolvedOnceAndComesBackBitForBit) {
+TEST(SolvedCache, ABaseSurfaceIsSolvedOnceAndComesBackBitForBit) {
   const test::TemporaryFolder folder;
   cloth::DrapeScene scene = cloth::drape_example("twisted-cylinder", some);
   scene.frames = 3;
@@ -52,7 +52,7 @@ TEST(cloth::SolvedCache, ABaseSurfaceIsSolvedOnceAndComesBackBitForBit) {
   EXPECT_EQ(known.trace.back().gradient_inf, told.trace.back().gradient_inf);
 }
 
-TEST(cloth::SolvedCache, WhateverAnAnswerDependsOnMakesItAnotherSlow) {
+TEST(SolvedCache, WhateverAnAnswerDependsOnMakesItAnotherSlow) {
   const test::TemporaryFolder folder;
   const cloth::DrapeScene scene = cloth::drape_example("sphere-drape", 120);
   const cloth::SolvedCache cache(folder.path());
@@ -146,7 +146,7 @@ TEST(cloth::SolvedCache, WhateverAnAnswerDependsOnMakesItAnotherSlow) {
             1);
 }
 
-TEST(cloth::SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBit) {
+TEST(SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBit) {
   const test::TemporaryFolder folder;
   cloth::WrinkleRequest request;
   request.scene = cloth::base_of(cloth::drape_example("stretched-sheet", some), folder / "cache");
@@ -166,7 +166,7 @@ TEST(cloth::SolvedCache, AFieldIsSolvedOnceAndComesBackBitForBit) {
   EXPECT_EQ(test::read_bytes(folder / "again.ply"), test::read_bytes(folder / "alone.ply"));
 }
 
-TEST(cloth::SolvedCache, WhateverAFieldDependsOnMakesItAnotherSlow) {
+TEST(SolvedCache, WhateverAFieldDependsOnMakesItAnotherSlow) {
   const test::TemporaryFolder folder;
   cloth::WrinkleRequest request;
   request.scene = cloth::base_of(cloth::drape_example("stretched-sheet", some), folder / "cache");
@@ -193,7 +193,7 @@ TEST(cloth::SolvedCache, WhateverAFieldDependsOnMakesItAnotherSlow) {
   EXPECT_TRUE(cloth::wrinkle_field(request).from_cache);
 }
 
-TEST(cloth::SolvedCache, WhatIsNotWholeIsSolvedAgain) {
+TEST(SolvedCache, WhatIsNotWholeIsSolvedAgain) {
   const test::TemporaryFolder folder;
   cloth::DrapeScene scene = cloth::drape_example("twisted-cylinder", some);
   scene.frames = 1;
@@ -217,7 +217,7 @@ TEST(cloth::SolvedCache, WhatIsNotWholeIsSolvedAgain) {
   EXPECT_EQ(draped(scene, folder / "again.ply", folder / "cache").from_cache, 1);
 }
 
-TEST(cloth::SolvedCache, WhatWasUsedLongestAgoMakesRoom) {
+TEST(SolvedCache, WhatWasUsedLongestAgoMakesRoom) {
   const test::TemporaryFolder folder;
   const cloth::SolvedCache cache(folder.path(),
                                  350);  // three answers of a hundred bytes with their headers would be 516
@@ -238,7 +238,7 @@ TEST(cloth::SolvedCache, WhatWasUsedLongestAgoMakesRoom) {
   EXPECT_EQ(cache.find(question(3)), answer);
 }
 
-TEST(cloth::SolvedCache, AFolderThatCannotBeWrittenIsNoFailure) {
+TEST(SolvedCache, AFolderThatCannotBeWrittenIsNoFailure) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "file", "in the way");
   cloth::DrapeScene scene = cloth::drape_example("twisted-cylinder", some);

@@ -12,7 +12,7 @@ namespace plisse {
 namespace {
 
 // Phases turn by 1 along one edge, which no face beside it closes over.
-TEST(cloth::WrinkleEvaluation, CurlCountsWhereItHasToBeZero) {
+TEST(WrinkleEvaluation, CurlCountsWhereItHasToBeZero) {
   const test::TemporaryFolder folder;
   cloth::WrinkleRequest request;
   request.scene = cloth::base_of(cloth::drape_example("sphere-drape", 200));

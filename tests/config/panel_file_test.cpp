@@ -30,7 +30,7 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-TEST(config::PanelFile, UnitsFabricsAndFeatures) {
+TEST(PanelFile, UnitsFabricsAndFeatures) {
   const config::PanelFile file = parse(R"(
 units = "mm"
 fabric = { B = "0.02 gf·cm²/cm", E = "0.3 MPa" }
@@ -80,7 +80,7 @@ grain = 45
   EXPECT_DOUBLE_EQ(second.grain, 45);
 }
 
-TEST(config::PanelFile, AllThatIsWrongAtOnceWithPlaceAndRemedy) {
+TEST(PanelFile, AllThatIsWrongAtOnceWithPlaceAndRemedy) {
   const std::string text = complaint(R"(fabric = "wine-stile"
 [sizing]
 gradation = 3
@@ -110,7 +110,7 @@ grian = 3
   EXPECT_THAT(complaint(""), HasSubstr("key 'panel': missing"));
 }
 
-TEST(config::PanelFile, ArcsAndBeziersAreSvgs) {
+TEST(PanelFile, ArcsAndBeziersAreSvgs) {
   // A quarter of a circle by an arc; the same by the usual cubic, 2.7e-4 R off at most; and S and T go on
   // smoothly.
   const auto arc = sizing::parse_path("M 1 0 A 1 1 0 0 1 0 1")[0];
@@ -129,7 +129,7 @@ TEST(config::PanelFile, ArcsAndBeziersAreSvgs) {
   EXPECT_EQ(sizing::parse_path("M0,0 1,0 1,1zM5 5l1 0 0 1z").size(), 2U);
 }
 
-TEST(config::PanelFile, CurvesFromSvgFiles) {
+TEST(PanelFile, CurvesFromSvgFiles) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "a.svg",
                    "<svg><path id='other' d='M0 0H1V1Z'/>\n<path\n fill=\"none\" id = \"front\"\n d=\"M 0 0 "
@@ -152,7 +152,7 @@ TEST(config::PanelFile, CurvesFromSvgFiles) {
     EXPECT_THROW(sizing::parse_svg(broken, ""), Error) << broken;
 }
 
-TEST(config::PanelFile, CurvesFromObjFiles) {
+TEST(PanelFile, CurvesFromObjFiles) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "front.obj",
                    "v 0 0 0\nv 40 0 0\nv 40 20 0\nv 0 20 0\nv 10 5 0\nv 12 5 0\nv 11 7 0\nv 0 10 0\n"
@@ -176,7 +176,7 @@ TEST(config::PanelFile, CurvesFromObjFiles) {
   EXPECT_THAT(text("obj = \"none.obj\""), HasSubstr("none.obj"));
 }
 
-TEST(config::PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
+TEST(PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
   const std::string text =
       "fabric = \"khaki\"\n[[panel]]\noutline = [[0,0],[1,0],[0,1]]\n[[panel]]\nfabric = \"rose\"\n"
       "outline = [[0,0],[1,0],[0,1]]\n";
@@ -196,7 +196,7 @@ TEST(config::PanelFile, AFabricBesideTheFileTakesThePlaceOfItsOwn) {
             sizing::find_fabric("wine-style")->weft);
 }
 
-TEST(config::PanelFile, PiecesStayWithTheSeamsBetweenThem) {
+TEST(PanelFile, PiecesStayWithTheSeamsBetweenThem) {
   config::PanelFile skirt = config::load_panels(test::asset("skirt.toml"));
   config::keep_pieces(skirt, {"band-back", "back"});
   ASSERT_EQ(skirt.garment.panels.size(), 2U);
@@ -216,7 +216,7 @@ TEST(config::PanelFile, PiecesStayWithTheSeamsBetweenThem) {
   EXPECT_FALSE(config::is_panel_file(test::asset("sleeve.toml")));
 }
 
-TEST(config::PanelFile, TheExamplesAreRead) {
+TEST(PanelFile, TheExamplesAreRead) {
   const config::PanelFile file = config::load_panels(test::asset("panels.toml"));
   EXPECT_GE(file.garment.panels.size(), 8U);
 }

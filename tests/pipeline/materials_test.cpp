@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "config/settings.h"
 #include "pipeline/loaded_scene.h"
+#include "pipeline/look.h"
 #include "pipeline/render.h"
 #include "pipeline/verify.h"
 #include "support/files.h"
@@ -100,10 +101,10 @@ constexpr const char* mapped = R"("normalTexture":{"index":0,"scale":0.8},"doubl
 TEST_F(Materials, NormalMapsUnderWrinkles) {
   const config::SceneSettings settings = scene(mapped);
   const pipeline::LoadedScene loaded(settings);
-  const passes::DrawPart part = loaded.draw_parts().at(0);
+  const passes::DrawPart part = pipeline::draw_parts(loaded).at(0);
   EXPECT_EQ(part.normal_texture, 0);
   EXPECT_EQ(part.normal_scale, 0.8F);
-  EXPECT_FALSE(loaded.texture_levels().at(0).at(0).srgb);
+  EXPECT_FALSE(pipeline::texture_levels(loaded).at(0).at(0).srgb);
   expect_verified(settings);
 }
 
@@ -114,7 +115,7 @@ TEST_F(Materials, EverythingAtOnce) {
 "baseColorTexture":{{"index":1,"extensions":{{"KHR_texture_transform":{{"scale":[3,2],"rotation":0.4}}}}}}}})",
           mapped),
       "COLOR_0");
-  const passes::DrawPart part = pipeline::LoadedScene(settings).draw_parts().at(0);
+  const passes::DrawPart part = pipeline::draw_parts(pipeline::LoadedScene(settings)).at(0);
   EXPECT_TRUE(part.has_colours);
   EXPECT_EQ(part.base_colour, glm::vec4(0.9F, 0.8F, 1, 1));
   EXPECT_EQ(part.alpha_cutoff, 0.3F);
@@ -124,7 +125,7 @@ TEST_F(Materials, EverythingAtOnce) {
 TEST_F(Materials, VertexColoursAlone) {
   const config::SceneSettings settings = scene(R"("doubleSided":true)", "COLOR_0");
   // They are the look: the scene's own colour is for surfaces that have none.
-  EXPECT_EQ(pipeline::LoadedScene(settings).draw_parts().at(0).base_colour, glm::vec4(1));
+  EXPECT_EQ(pipeline::draw_parts(pipeline::LoadedScene(settings)).at(0).base_colour, glm::vec4(1));
   expect_verified(settings);
 }
 

@@ -161,7 +161,7 @@ double cost(const pipeline::Effort& effort) {
   return 10 + 4.0 * effort.rounds / effort.interval + 10.0 * effort.samples;
 }
 
-TEST(pipeline::TimeBudget, GivesUpWhatIsSeenLeastFirst) {
+TEST(TimeBudget, GivesUpWhatIsSeenLeastFirst) {
   const pipeline::Effort wanted{5, 1, 4};  // 70 ms
   for (const auto& [allowed, kept] :
        std::vector<std::pair<double, pipeline::Effort>>{{80, wanted},
@@ -175,7 +175,7 @@ TEST(pipeline::TimeBudget, GivesUpWhatIsSeenLeastFirst) {
   }
 }
 
-TEST(pipeline::TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
+TEST(TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
   const pipeline::Effort wanted{5, 1, 4};
   pipeline::TimeBudget budget(wanted, 80);
   budget.spent(1000);  // compiles its shaders
@@ -186,7 +186,7 @@ TEST(pipeline::TimeBudget, TheFirstFrameIsNoMeasureAndGoodTimesComeBack) {
   EXPECT_EQ(budget.effort(), wanted);
 }
 
-TEST(pipeline::ErrorBudget, FindsTheRoundsThatAnErrorTakes) {
+TEST(ErrorBudget, FindsTheRoundsThatAnErrorTakes) {
   pipeline::ErrorBudget budget({1, 1, 4}, 0.1);
   for (int n = 0; n < 20; ++n) budget.moved(1.0 / budget.effort().rounds);  // ten rounds would do
   EXPECT_EQ(budget.effort().rounds, 16);

@@ -62,7 +62,7 @@ io::Channel turning(int node, const glm::dvec3& axis, double from, double to, do
 // The strip on two bones, the upper one at y = 2; vertices at y = 2 hang on both. The armature is `armature`
 // of everything, and the bind pose is how the nodes stand.
 io::Model sleeve(const glm::dmat4& armature = glm::dmat4{1}) {
-  io::Model model = cloth::model_of(strip(4));
+  io::Model model = model_of(strip(4));
   io::Mesh& mesh = model.meshes[0];
   model.nodes.resize(4);
   model.nodes[1] = {"armature", 0, armature, {}, {}};
@@ -96,8 +96,8 @@ void expect_same(const std::vector<double>& a, const std::vector<double>& b, dou
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], tolerance) << i;
 }
 
-TEST(scene::Animation, CountsFramesAsTheContractSays) {
-  io::Model model = cloth::model_of(strip(1));
+TEST(Animation, CountsFramesAsTheContractSays) {
+  io::Model model = model_of(strip(1));
   // ⌊T·fps + 1e-3⌋ + 1, with durations that single precision leaves short of a whole frame.
   for (const auto& [duration, fps, frames] : {std::tuple{1.0, 24.0, 25},
                                               {2.0833299, 24.0, 51},
@@ -112,7 +112,7 @@ TEST(scene::Animation, CountsFramesAsTheContractSays) {
   EXPECT_EQ(scene::Animation(model, {}).timeline().frame_count, 1);
 }
 
-TEST(scene::Animation, BendsASkinAsByHand) {
+TEST(Animation, BendsASkinAsByHand) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
   scene::Animation animation(model, {});
@@ -129,7 +129,7 @@ TEST(scene::Animation, BendsASkinAsByHand) {
   }
 }
 
-TEST(scene::Animation, RigidMotionOfASkinKeepsDistances) {
+TEST(Animation, RigidMotionOfASkinKeepsDistances) {
   io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
   io::Channel channel = turning(0, glm::normalize(glm::dvec3{1, 2, 3}), 0, 2.5, 1);
   channel.translation.times = {0, 1};
@@ -145,7 +145,7 @@ TEST(scene::Animation, RigidMotionOfASkinKeepsDistances) {
 
 // An armature scaled along one axis, or by 100, or mirrored, as exporters write them: the rest is what the
 // default pose shows, so nothing reads as compressed.
-TEST(scene::Animation, ScaledArmaturesRestUncompressed) {
+TEST(Animation, ScaledArmaturesRestUncompressed) {
   for (const glm::dvec3& scale : {glm::dvec3{100}, glm::dvec3{0.01}, glm::dvec3{1, 1.23, 1},
                                   glm::dvec3{-1, 1, 1}, glm::dvec3{-2, 0.5, 3}}) {
     scene::Animation animation(sleeve(glm::scale(glm::dmat4{1}, scale)), {});
@@ -167,7 +167,7 @@ TEST(scene::Animation, ScaledArmaturesRestUncompressed) {
 }
 
 // Where the nodes stand bent although the skin was bound straight, the size still comes out right.
-TEST(scene::Animation, BindPoseNeedNotBeTheDefaultPose) {
+TEST(Animation, BindPoseNeedNotBeTheDefaultPose) {
   io::Model model = sleeve(glm::scale(glm::dmat4{1}, glm::dvec3{0.01}));
   model.nodes[3].local = model.nodes[3].local * glm::mat4_cast(about({1, 0, 0}, 1));
   scene::Animation animation(model, {});
@@ -176,7 +176,7 @@ TEST(scene::Animation, BindPoseNeedNotBeTheDefaultPose) {
     EXPECT_TRUE(std::abs(length - 0.01) < rounding || std::abs(length - 0.01 * std::sqrt(2)) < rounding);
 }
 
-TEST(scene::Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
+TEST(Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
   io::Model model = sleeve();
   // The upper half in another mesh of another material; its lowest row repeats the first mesh's highest.
   io::Mesh upper = model.meshes[0];
@@ -199,8 +199,8 @@ TEST(scene::Animation, WeldsAcrossMeshesOfOneSkinButNotAcrossBones) {
   EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 12U);
 }
 
-TEST(scene::Animation, WeldsStillNodesButNotMovingOnes) {
-  io::Model model = cloth::model_of(strip(1));
+TEST(Animation, WeldsStillNodesButNotMovingOnes) {
+  io::Model model = model_of(strip(1));
   model.nodes.resize(3);
   model.nodes[1] = {"left", 0, glm::translate(glm::dmat4{1}, {1, 0, 0}), {0}, {}};
   model.nodes[2] = {"above", 0, glm::translate(glm::dmat4{1}, {0, 1, 0}), {0}, {}};
@@ -210,11 +210,11 @@ TEST(scene::Animation, WeldsStillNodesButNotMovingOnes) {
   EXPECT_EQ(scene::Animation(model, {}).surface().vertex_count(), 10U);
 }
 
-TEST(scene::Animation, MorphTargetsMoveInTheWorldsSpace) {
+TEST(Animation, MorphTargetsMoveInTheWorldsSpace) {
   io::Mesh mesh = strip(1);
   mesh.targets = {{"up", std::vector<glm::vec3>(4, {0, 0, 1})},
                   {"side", std::vector<glm::vec3>(4, {1, 0, 0})}};
-  io::Model model = cloth::model_of(mesh);
+  io::Model model = model_of(mesh);
   model.nodes[0].local =
       glm::rotate(glm::scale(glm::dmat4{1}, glm::dvec3{2}), pi / 2, {0, 1, 0});  // z → x, x → −z
   io::Channel channel;
@@ -229,8 +229,8 @@ TEST(scene::Animation, MorphTargetsMoveInTheWorldsSpace) {
     EXPECT_NEAR(glm::distance(last[v] - first[v], {2, 0, -1}), 0, 1e-6);  // deltas are floats
 }
 
-TEST(scene::Animation, CacheKeepsVerticesThatPartLater) {
-  io::Model model = cloth::model_of(strip(1));
+TEST(Animation, CacheKeepsVerticesThatPartLater) {
+  io::Model model = model_of(strip(1));
   io::Mesh second = strip(1);  // lies on the first
   model.meshes.push_back(second);
   model.nodes[0].meshes = {0, 1};
@@ -247,7 +247,7 @@ TEST(scene::Animation, CacheKeepsVerticesThatPartLater) {
   EXPECT_NEAR(scene::posed(animation.surface(), animation.pose(2))[4].z, 0.5, 0);
 }
 
-TEST(scene::Animation, RestPoses) {
+TEST(Animation, RestPoses) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {1, 0, 0}, 1, 2, 1)})};
   EXPECT_EQ(scene::Animation(model, {}).surface().rest, scene::Animation(model, {}).surface().bind);
@@ -267,7 +267,7 @@ TEST(scene::Animation, RestPoses) {
               testing::HasSubstr("gone.obj"));
 }
 
-TEST(scene::Animation, ChoosesClips) {
+TEST(Animation, ChoosesClips) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {}), clip_of(2, {}), clip_of(3, {})};
   model.clips[0].name = "Survey";
@@ -283,7 +283,7 @@ TEST(scene::Animation, ChoosesClips) {
               testing::HasSubstr("0 'Survey', 1 'Walk', 2 'Run'"));
 }
 
-TEST(scene::Animation, HoldsTheLastGoodPose) {
+TEST(Animation, HoldsTheLastGoodPose) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 1)})};
   io::Keys<glm::dquat>& track = model.clips[0].channels[0].rotation;
@@ -299,7 +299,7 @@ TEST(scene::Animation, HoldsTheLastGoodPose) {
   EXPECT_TRUE(std::isfinite(glm::length(bounds.high - bounds.low)));
 }
 
-TEST(scene::Animation, EqualTimesGiveEqualBits) {
+TEST(Animation, EqualTimesGiveEqualBits) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, 1, 0.5)})};
   scene::Animation animation(model, {});
@@ -307,7 +307,7 @@ TEST(scene::Animation, EqualTimesGiveEqualBits) {
   EXPECT_NE(animation.pose(12), animation.pose(13));
 }
 
-TEST(scene::Animation, BoundsHoldEveryFrame) {
+TEST(Animation, BoundsHoldEveryFrame) {
   io::Model model = sleeve();
   model.clips = {clip_of(1, {turning(3, {0, 0, 1}, 0, pi / 2, 1)})};
   scene::Animation animation(model, {});

@@ -48,8 +48,8 @@ void read_as_scene(std::string_view bytes, const fs::path& folder) {
       refused = error;
     }
   };
-  attempt(parse_scene, "scene.toml");
-  attempt(parse_paint, "paint.toml");
+  attempt(config::parse_scene, "scene.toml");
+  attempt(config::parse_paint, "paint.toml");
   attempt([](std::string_view text, const fs::path& file) { return config::parse_panels(text, file); },
           "panels.toml");
   if (taken == 0 && refused) throw Error(*refused);
