@@ -46,18 +46,18 @@ void Buffer::bind_items(int unit, Item item) const {
 }
 
 void Buffer::bind_storage(int binding) const {
-  static const GLint64 most = [] {
-    GLint64 bytes = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    return bytes;
-  }();
-  if (bytes_ > static_cast<std::size_t>(most)) {
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format(
-            "this is too large for this OpenGL driver: shaders write lists of at most {} bytes, and one "
-            "has {}; with --displace, fewer --levels need less",
-            most, bytes_));
+  if (!fits_storage_) {  // asked once a buffer: another device has another limit
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (bytes_ > static_cast<std::size_t>(most)) {
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format(
+              "this is too large for this OpenGL driver: shaders write lists of at most {} bytes, and one "
+              "has {}; with --displace, fewer --levels need less",
+              most, bytes_));
+    }
+    fits_storage_ = true;
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }

@@ -19,11 +19,13 @@ class Buffer {
   Buffer(Buffer&& other) noexcept
       : id_(std::exchange(other.id_, 0)),
         items_(std::exchange(other.items_, 0)),
-        bytes_(std::exchange(other.bytes_, 0)) {}
+        bytes_(std::exchange(other.bytes_, 0)),
+        fits_storage_(other.fits_storage_) {}
   Buffer& operator=(Buffer&& other) noexcept {
     std::swap(id_, other.id_);
     std::swap(items_, other.items_);
     std::swap(bytes_, other.bytes_);
+    std::swap(fits_storage_, other.fits_storage_);
     return *this;
   }
   std::size_t bytes() const { return bytes_; }
@@ -52,6 +54,7 @@ class Buffer {
   unsigned id_ = 0;
   mutable unsigned items_ = 0;  // the texture over it, made when it is first bound
   std::size_t bytes_ = 0;
+  mutable bool fits_storage_ = false;  // found to be within the device's limit
 };
 
 }  // namespace plisse::gpu
