@@ -87,14 +87,14 @@ class Governor {
     if (error_) return error_->effort();
     return std::nullopt;
   }
-  void drew(pipeline::Stepper& stepper, double milliseconds) {
+  void drew(Stepper& stepper, double milliseconds) {
     if (time_) time_->spent(milliseconds);
     if (error_ && stepper.descended()) error_->moved(stepper.last_round_moved());
   }
 
  private:
-  std::optional<pipeline::TimeBudget> time_;
-  std::optional<pipeline::ErrorBudget> error_;
+  std::optional<TimeBudget> time_;
+  std::optional<ErrorBudget> error_;
 };
 
 // The stages' mean over frames that did, or did not, leave something out; nothing where there is no such
@@ -185,162 +185,218 @@ void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
   }
 }
 
+// One run: what its stages share.
+class Run {
+ public:
+  Run(const RenderRequest& request, const FrameCallback& on_frame)
+      : request_(request), on_frame_(on_frame), started_(wall_seconds()) {}
+
+  void load();
+  void split();
+  void draw_frames();
+  RenderReport report();
+
+ private:
+  void begin_report();
+  std::string hash_of(int frame);
+  bool stands_already(FrameReport& entry, const std::string& hash);
+  bool draw(FrameReport& entry, const std::string& hash, std::shared_ptr<Picture>& picture);
+  void write(std::size_t index, const std::string& hash, const std::shared_ptr<Picture>& picture);
+  void finished(std::size_t index);
+  void write_state();
+
+  const RenderRequest& request_;
+  const FrameCallback& on_frame_;
+  double started_;
+  std::unique_ptr<LoadedScene> scene_;
+  std::optional<gpu::Context> context_;
+  std::exception_ptr no_context_;
+  std::optional<gpu::StageTimer> timer_;
+  std::optional<Governor> governor_;
+  std::vector<int> frames_;
+  std::vector<passes::Aov> aovs_;
+  Hash driver_;
+  std::string body_hash_, split_hash_;  // of what displaces
+  std::optional<Subdivision> split_;
+  // Made when the first frame is drawn: a run that finds all frames done is quick.
+  std::optional<FrameDrawer> drawer_;
+  RenderReport report_;
+  std::mutex callback_mutex_;  // of the two below, and of callbacks
+  int done_ = 0;
+  bool full_ = false;  // a frame could not be written: the next one would fare the same
+};
+
+// The scene and the driver, at the same time: a process of its own reads the model.
+void Run::load() {
+  auto loading =
+      std::async(std::launch::async, [&] { return std::make_unique<LoadedScene>(request_.scene); });
+  try {
+    context_.emplace(request_.device);
+  } catch (const Error&) {
+    no_context_ = std::current_exception();
+  }
+  scene_ = loading.get();  // what is wrong with the scene is told first
+  frames_ = config::select_frames(scene_->settings.model.frames, scene_->animation.timeline().frame_count);
+  config::check_frame_paths(scene_->settings.output.path, frames_);
+  aovs_ = parse_aovs(request_.aovs);
+  check_aovs(aovs_, request_.displace);
+  check_budget(request_);
+  body_hash_ = body_fingerprint(request_.outside);
+  if (!request_.state_file.empty()) check_writable(request_.state_file);
+  if (no_context_) std::rethrow_exception(no_context_);
+  timer_.emplace(context_->info().software);
+  driver_ = driver_hash(context_->info(), request_.shader_folder);
+  governor_.emplace(request_, scene_->settings);
+  begin_report();
+}
+
+void Run::begin_report() {
+  report_.gl = context_->info();
+  report_.render_vertices = scene_->surface().render_vertices.size();
+  report_.welded_vertices = scene_->surface().vertex_count();
+  report_.triangles = scene_->surface().triangle_count();
+  report_.timer = timer_->kind();
+  for (const Part& part : scene_->surface().parts) report_.objects.push_back({part.mesh, part.material_name});
+  report_.wavelength_m = scene_->wavelength();
+  report_.frames.resize(frames_.size());
+}
+
+// The whole clip decides how a displaced surface is split, so it is a part of each frame's hash.
+void Run::split() {
+  if (!request_.displace) return;
+  split_ = request_.levels ? subdivide(scene_->surface(), 1 << *request_.levels) : split_as_needed(*scene_);
+  const auto bytes = std::as_bytes(std::span(split_->triangles));
+  split_hash_ = Hash().add_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).hex();
+}
+
+std::string Run::hash_of(int frame) {
+  if (governor_->active()) return {};
+  const std::string hash = scene_->frame_hash(frame, driver_);
+  if (!request_.displace) return hash;
+  return Hash().add(hash).add("displaced").add(split_hash_).add(body_hash_).hex();
+}
+
+bool Run::stands_already(FrameReport& entry, const std::string& hash) {
+  entry.skipped = request_.skip_existing && std::filesystem::exists(entry.path) &&
+                  io::png_is_whole(entry.path, hash) && aovs_are_whole(aovs_, entry.path, hash);
+  if (entry.skipped) ++report_.skipped["existing frames"];
+  return entry.skipped;
+}
+
+// Steps the history up to the frame and draws it; false where a signal came in between.
+bool Run::draw(FrameReport& entry, const std::string& hash, std::shared_ptr<Picture>& picture) {
+  if (!drawer_) {
+    drawer_.emplace(*scene_, request_, std::move(split_), aovs_, *context_, *timer_);
+    if (!request_.state_file.empty())
+      drawer_->stepper().read_state(request_.state_file, driver_, scene_->step_of_frame(entry.frame));
+  }
+  const double began = wall_seconds();
+  const auto skipped_before = drawer_->skipped();
+  entry.effort = governor_->effort();
+  if (entry.effort) drawer_->set_effort(*entry.effort);
+  if (!drawer_->advance_to(entry.frame)) return false;
+  guarded(entry, [&] { picture = drawer_->draw(entry, hash); });
+  for (const auto& [stage, ms] : timer_->collect()) entry.ms[stage] += ms;
+  for (const auto& [what, count] : drawer_->skipped()) {
+    const auto before = skipped_before.find(what);
+    if (before == skipped_before.end() || before->second != count) entry.left_out.push_back(what);
+  }
+  governor_->drew(drawer_->stepper(), 1e3 * (wall_seconds() - began));
+  return true;
+}
+
+// Encodes and writes a frame that was drawn; on a thread of the writer.
+void Run::write(std::size_t index, const std::string& hash, const std::shared_ptr<Picture>& picture) {
+  FrameReport& entry = report_.frames[index];
+  if (entry.error.empty()) {
+    guarded(entry, [&] {
+      const double encode = wall_seconds();
+      const auto [bytes, compressed] = picture->png(hash);
+      const double write = wall_seconds();
+      write_whole_file(entry.path, bytes);
+      if (compressed) entry.ms["encode"] = 1e3 * (write - encode);
+      entry.ms["write"] = 1e3 * (wall_seconds() - write);
+    });
+  }
+  if (entry.code == ExitCode::no_output) {
+    std::lock_guard lock(callback_mutex_);
+    full_ = true;
+  }
+  finished(index);
+}
+
+void Run::finished(std::size_t index) {
+  std::lock_guard lock(callback_mutex_);
+  ++done_;
+  if (on_frame_) on_frame_(done_, static_cast<int>(frames_.size()), report_.frames[index]);
+}
+
+// Frames that stand already, with --skip-existing, are left out. What was drawn is encoded and written by
+// threads while the next one is drawn.
+void Run::draw_frames() {
+  FrameWriter writer(context_->info().software);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    {
+      std::lock_guard lock(callback_mutex_);
+      if (full_) break;
+    }
+    report_.interrupted = interrupted();
+    if (report_.interrupted) break;
+    FrameReport& entry = report_.frames[i];
+    entry.frame = frames_[i];
+    entry.time_s = scene_->animation.timeline().time(entry.frame);
+    entry.path = config::frame_path(scene_->settings.output.path, entry.frame);
+    const std::string hash = hash_of(entry.frame);
+    if (stands_already(entry, hash)) {
+      finished(i);
+      continue;
+    }
+    std::shared_ptr<Picture> picture;
+    if (!draw(entry, hash, picture)) {
+      entry.frame = 0;
+      report_.interrupted = true;
+      break;
+    }
+    writer.submit([this, i, hash, picture] { write(i, hash, picture); });
+  }
+  writer.finish();
+}
+
+void Run::write_state() {
+  try {
+    drawer_->stepper().write_state(request_.state_file, driver_);
+  } catch (const Error& error) {  // the frames stand all the same
+    report_.outcome = ExitCode::no_output;
+    if (report_.failure.empty()) report_.failure = error.what();
+  }
+}
+
+RenderReport Run::report() {
+  std::erase_if(report_.frames, [](const FrameReport& frame) { return frame.frame == 0; });
+  report_.outcome = outcome(report_.frames);
+  int drawn = 0;
+  for (const FrameReport& frame : report_.frames) {
+    if (report_.failure.empty()) report_.failure = frame.error;
+    drawn += !frame.skipped && frame.error.empty() ? 1 : 0;
+  }
+  if (drawer_) {
+    report_.skipped.merge(drawer_->skipped());
+    report_.saved_s = saved_seconds(report_);
+    if (!request_.state_file.empty()) write_state();
+  }
+  report_.wall_s = wall_seconds() - started_;
+  report_.fps = report_.wall_s > 0 ? drawn / report_.wall_s : 0;
+  return std::move(report_);
+}
+
 }  // namespace
 
 RenderReport render(const RenderRequest& request, const FrameCallback& on_frame) {
-  const double started = wall_seconds();
-  // A process of its own reads the model while the driver starts.
-  auto loading =
-      std::async(std::launch::async, [&] { return std::make_unique<pipeline::LoadedScene>(request.scene); });
-  std::optional<gpu::Context> started_context;
-  std::exception_ptr no_context;
-  try {
-    started_context.emplace(request.device);
-  } catch (const Error&) {
-    no_context = std::current_exception();
-  }
-  const auto loaded = loading.get();  // what is wrong with the scene is told first
-  pipeline::LoadedScene& scene = *loaded;
-  const auto& output = scene.settings.output;
-  const auto frames =
-      config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
-  config::check_frame_paths(output.path, frames);
-  const auto aovs = pipeline::parse_aovs(request.aovs);
-  check_aovs(aovs, request.displace);
-  check_budget(request);
-
-  const std::string body_hash = body_fingerprint(request.outside);
-  if (!request.state_file.empty()) check_writable(request.state_file);
-  if (no_context) std::rethrow_exception(no_context);
-  const gpu::Context& context = *started_context;
-  gpu::StageTimer timer(context.info().software);
-  const Hash driver = driver_hash(context.info(), request.shader_folder);
-
-  RenderReport report;
-  report.gl = context.info();
-  report.render_vertices = scene.surface().render_vertices.size();
-  report.welded_vertices = scene.surface().vertex_count();
-  report.triangles = scene.surface().triangle_count();
-  report.timer = timer.kind();
-  for (const Part& part : scene.surface().parts) report.objects.push_back({part.mesh, part.material_name});
-  report.wavelength_m = scene.wavelength();
-  report.frames.resize(frames.size());
-
-  // The whole clip decides how a displaced surface is split, so it is a part of each frame's hash.
-  std::optional<Subdivision> split;
-  std::string split_hash;
-  if (request.displace) {
-    split =
-        request.levels ? subdivide(scene.surface(), 1 << *request.levels) : pipeline::split_as_needed(scene);
-    const auto bytes = std::as_bytes(std::span(split->triangles));
-    split_hash = Hash().add_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).hex();
-  }
-
-  // Made when the first frame is drawn: a run that finds all frames done is quick.
-  std::optional<pipeline::FrameDrawer> drawer;
-  Governor governor(request, scene.settings);
-
-  std::mutex callback_mutex;
-  int done = 0;
-  const auto finished = [&](std::size_t index) {
-    std::lock_guard lock(callback_mutex);
-    ++done;
-    if (on_frame) on_frame(done, static_cast<int>(frames.size()), report.frames[index]);
-  };
-  bool full = false;  // a frame could not be written: the next one would fare the same
-
-  {
-    pipeline::FrameWriter writer(context.info().software);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      {
-        std::lock_guard lock(callback_mutex);
-        if (full) break;
-      }
-      const int frame = frames[i];
-      if (interrupted()) {
-        report.interrupted = true;
-        break;
-      }
-      FrameReport& entry = report.frames[i];
-      entry.frame = frame;
-      entry.time_s = scene.animation.timeline().time(frame);
-      entry.path = config::frame_path(output.path, frame);
-      std::string hash = governor.active() ? std::string() : scene.frame_hash(frame, driver);
-      if (request.displace && !hash.empty())
-        hash = Hash().add(hash).add("displaced").add(split_hash).add(body_hash).hex();
-      const bool exists = std::filesystem::exists(entry.path);
-      if (request.skip_existing && exists && io::png_is_whole(entry.path, hash) &&
-          pipeline::aovs_are_whole(aovs, entry.path, hash)) {
-        entry.skipped = true;
-        ++report.skipped["existing frames"];
-        finished(i);
-        continue;
-      }
-      if (!drawer) {
-        drawer.emplace(scene, request, std::move(split), aovs, context, timer);
-        if (!request.state_file.empty())
-          drawer->stepper().read_state(request.state_file, driver, scene.step_of_frame(frame));
-      }
-      const double began = wall_seconds();
-      const auto skipped_before = drawer->skipped();
-      entry.effort = governor.effort();
-      if (entry.effort) drawer->set_effort(*entry.effort);
-      if (!drawer->advance_to(frame)) {
-        entry.frame = 0;
-        report.interrupted = true;
-        break;
-      }
-      std::shared_ptr<pipeline::Picture> picture;
-      guarded(entry, [&] { picture = drawer->draw(entry, hash); });
-      for (const auto& [stage, ms] : timer.collect()) entry.ms[stage] += ms;
-      for (const auto& [what, count] : drawer->skipped()) {
-        const auto before = skipped_before.find(what);
-        if (before == skipped_before.end() || before->second != count) entry.left_out.push_back(what);
-      }
-      governor.drew(drawer->stepper(), 1e3 * (wall_seconds() - began));
-
-      writer.submit([&, i, hash, picture] {
-        FrameReport& mine = report.frames[i];
-        if (mine.error.empty()) {
-          guarded(mine, [&] {
-            const double encode = wall_seconds();
-            const auto [bytes, compressed] = picture->png(hash);
-            const double write = wall_seconds();
-            write_whole_file(mine.path, bytes);
-            if (compressed) mine.ms["encode"] = 1e3 * (write - encode);
-            mine.ms["write"] = 1e3 * (wall_seconds() - write);
-          });
-        }
-        if (mine.code == ExitCode::no_output) {
-          std::lock_guard lock(callback_mutex);
-          full = true;
-        }
-        finished(i);
-      });
-    }
-    writer.finish();
-  }
-  std::erase_if(report.frames, [](const FrameReport& frame) { return frame.frame == 0; });
-  report.outcome = outcome(report.frames);
-  for (const FrameReport& frame : report.frames)
-    if (report.failure.empty()) report.failure = frame.error;
-  int drawn = 0;
-  for (const FrameReport& frame : report.frames) drawn += !frame.skipped && frame.error.empty() ? 1 : 0;
-  if (drawer) {
-    report.skipped.merge(drawer->skipped());
-    report.saved_s = saved_seconds(report);
-    if (!request.state_file.empty()) {
-      try {
-        drawer->stepper().write_state(request.state_file, driver);
-      } catch (const Error& error) {  // the frames stand all the same
-        report.outcome = ExitCode::no_output;
-        if (report.failure.empty()) report.failure = error.what();
-      }
-    }
-  }
-  report.wall_s = wall_seconds() - started;
-  report.fps = report.wall_s > 0 ? drawn / report.wall_s : 0;
-  return report;
+  Run run(request, on_frame);
+  run.load();         // the scene, and the driver
+  run.split();        // its surface, where waves are geometry
+  run.draw_frames();  // skin → crush → relax → render → write
+  return run.report();
 }
 
 }  // namespace plisse::pipeline
