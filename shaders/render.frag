@@ -109,6 +109,17 @@ vec3 growth(vec3 g, vec3 n) {
 }
 #endif
 
+#ifdef AOV
+// Mean curvature at x, whose unit normal is N, from their differences between pixels: half the trace of I⁻¹ II for the
+// map from the picture to the surface. Positive where the surface bulges toward the side that N points to.
+float mean_curvature(vec3 x, vec3 N) {
+    vec3 x_u = dFdx(x), x_v = dFdy(x), N_u = dFdx(N), N_v = dFdy(N);
+    float E = dot(x_u, x_u), F = dot(x_u, x_v), G = dot(x_v, x_v);
+    float e = dot(N_u, x_u), f = 0.5 * (dot(N_u, x_v) + dot(N_v, x_u)), g = dot(N_v, x_v);
+    return 0.5 * (e * G - 2.0 * f * F + g * E) / max(E * G - F * F, 1e-30);
+}
+#endif
+
 float texture_level(vec2 across, vec2 down) {
     return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
 }
@@ -183,6 +194,12 @@ void main() {
     if (aov == AOV_NORMAL) colour.rgb = N;
     if (aov == AOV_DEPTH) colour.rgb = vec3(-dot(to_eye, view_forward));
     if (aov == AOV_OBJECT) colour.rgb = vec3(object);
+    vec3 drawn = -to_eye;
+#ifndef PLAIN
+    drawn += wrinkle.height * n;
+#endif
+    float curvature = mean_curvature(drawn, N);
+    if (aov == AOV_CURVATURE) colour.rgb = vec3(curvature);
 #ifdef DISPLACED
     if (aov == AOV_HEIGHT) colour.rgb = vec3(relief_here.x);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(relief_here.y);

@@ -41,6 +41,10 @@ vec3 number(const vec3& value, float) {
 float of_waves(float wavelength, float) {
   return wavelength / 4;
 }
+// A wave as steep as it is long has the mean curvature ½ k = π/W on its crest.
+float of_crests(float wavelength, float) {
+  return std::numbers::pi_v<float> / wavelength;
+}
 float of_picture(float, float largest) {
   return std::max(largest, 1e-30F);
 }
@@ -56,6 +60,7 @@ const std::vector<AovKind>& table() {
       {Aov::depth, "depth", "", 1, 1, false, grey, of_picture},
       {Aov::object, "object", "its number", 1, 0, false, number, of_waves},
       {Aov::beauty, "beauty", "the picture in linear light", 4, 0, false, grey, of_waves},
+      {Aov::curvature, "curvature", "mean curvature, 1/m", 1, -1, false, grey_of_both_signs, of_crests},
   };
   return kinds;
 }

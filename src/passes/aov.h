@@ -11,7 +11,7 @@
 
 namespace plisse::passes {
 
-enum class Aov { height, normal, amplitude, phase, direction, tension, depth, object, beauty };
+enum class Aov { height, normal, amplitude, phase, direction, tension, depth, object, beauty, curvature };
 
 struct AovKind {
   Aov aov;
