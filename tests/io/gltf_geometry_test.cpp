@@ -165,8 +165,8 @@ TEST_F(GltfGeometry, OneMeshOnTwoSkeletonsAndAsARigidPart) {
   EXPECT_EQ(model.meshes[0].name, "coat");
   EXPECT_EQ(model.meshes[1].name, "coat");
   EXPECT_EQ(model.nodes[2].meshes, model.nodes[5].meshes);
-  Animation animation(model, {});
-  const Points posed_points = posed(animation.surface(), animation.pose(1));
+  scene::Animation animation(model, {});
+  const Points posed_points = scene::posed(animation.surface(), animation.pose(1));
   // Bind matrix −3, bone at 13: z = 10. No bind matrix, bone at 20. Mirrored in x. Nine up.
   EXPECT_THAT(posed_points, testing::IsSupersetOf(Points{{1, 0, 10}, {1, 0, 20}, {-1, 0, 0}, {1, 9, 0}}));
   // The mirrored button is wound the other way, so that its outside stays outside: both still face +z.
@@ -192,8 +192,8 @@ TEST_F(GltfGeometry, InstancesOfOneNode) {
 "meshes":[{{"primitives":[{{"attributes":{{"POSITION":{}}}}}]}}])",
         moves, turns, scale, position);
   };
-  Animation animation(import(file(scales)), {});
-  const Points points = posed(animation.surface(), animation.pose(1));
+  scene::Animation animation(import(file(scales)), {});
+  const Points points = scene::posed(animation.surface(), animation.pose(1));
   ASSERT_EQ(points.size(), 6U);  // and none at the node itself
   const Points expected{{0, 100, 0}, {1, 100, 0}, {0, 101, 0}, {0, 100, 7}, {0, 102, 7}, {-2, 100, 7}};
   for (std::size_t v = 0; v < 6; ++v) EXPECT_LT(glm::distance(points[v], expected[v]), 1e-12) << v;

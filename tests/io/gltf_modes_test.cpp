@@ -41,7 +41,7 @@ class GltfModes : public testing::Test {
     return import_model(file);
   }
   static glm::dmat4 matrix(const Model& model, double time) {
-    return Rig(model, &model.clips.at(0)).world(time).at(0);
+    return scene::Rig(model, &model.clips.at(0)).world(time).at(0);
   }
   static double difference(const glm::dmat4& a, const glm::dmat4& b) {
     double largest = 0;
@@ -122,7 +122,7 @@ TEST_F(GltfModes, Rotation) {
 
 TEST_F(GltfModes, Weights) {
   const auto weights = [](const Model& model, double time) {
-    return Rig(model, &model.clips.at(0)).morph_weights(0, time);
+    return scene::Rig(model, &model.clips.at(0)).morph_weights(0, time);
   };
   // Two targets a key.
   const std::vector<float> keys{0, 1, 1, 0.5F};
@@ -155,12 +155,12 @@ TEST_F(GltfModes, NamesAndClipsWithoutLength) {
   ASSERT_EQ(model.clips.size(), 3U);
   EXPECT_EQ(model.clips[0].name, "clip 0");
   EXPECT_EQ(model.clips[0].duration, 0);
-  Animation still(model, {});
+  scene::Animation still(model, {});
   EXPECT_EQ(still.timeline().frame_count, 1);
   EXPECT_EQ(still.pose(1).palette.at(0)[3].y, 0);  // rests where its only frame has it
   EXPECT_EQ(still.surface().rest.at(0).y, 5);
   EXPECT_EQ(model.clips[1].name, "Armature|walk on");
-  EXPECT_EQ(Animation(model, {.clip = "Armature|walk on"}).clip_name(), "Armature|walk on");
+  EXPECT_EQ(scene::Animation(model, {.clip = "Armature|walk on"}).clip_name(), "Armature|walk on");
   // Of keys at one time the last counts, one that goes back is dropped.
   EXPECT_EQ(model.clips[1].channels[0].translation.times, (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(model.clips[1].channels[0].translation.values[1], glm::dvec3(2, 0, 0));

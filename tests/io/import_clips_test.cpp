@@ -40,9 +40,11 @@ TEST_F(Clips, TicksThatTheFileStates) {
   ASSERT_EQ(thirty.clips.size(), 1U);
   EXPECT_EQ(thirty.clips[0].duration, 2);  // 60 ticks of 1/30 s
   // 24 frames a second whatever the file's ticks: frame 25 is one second in, half of the way.
-  Animation animation(thirty, {});
+  scene::Animation animation(thirty, {});
   EXPECT_EQ(animation.timeline().frame_count, 49);
-  const auto x_at = [&](int frame) { return posed(animation.surface(), animation.pose(frame)).at(0).x; };
+  const auto x_at = [&](int frame) {
+    return scene::posed(animation.surface(), animation.pose(frame)).at(0).x;
+  };
   EXPECT_NEAR(x_at(25), 30, 1e-4);  // single precision of 60
   EXPECT_NEAR(x_at(49) - x_at(1), 60, 1e-4);
 }
@@ -54,7 +56,7 @@ TEST_F(Clips, NoTicksASecondAreTwentyFour) {
 
 TEST_F(Clips, WithoutLengthIsOneFrame) {
   const Model still = model(ticks(24), "Still", 0);
-  Animation animation(still, {});
+  scene::Animation animation(still, {});
   EXPECT_EQ(animation.timeline().frame_count, 1);
   EXPECT_NO_THROW(animation.pose(1));
 }
@@ -63,9 +65,9 @@ TEST_F(Clips, NamesAreTakenAsTheyAre) {
   EXPECT_EQ(model(ticks(24), "", 24).clips.at(0).name, "clip 0");
   EXPECT_EQ(model(ticks(24), "Armature|Walk", 24).clips.at(0).name, "Armature|Walk");
   const Model piped = model(ticks(24), "Armature|Walk", 24);
-  EXPECT_EQ(Animation(piped, {.clip = "Armature|Walk"}).timeline().frame_count, 25);
-  EXPECT_EQ(Animation(piped, {.clip = "0"}).timeline().frame_count, 25);
-  EXPECT_THAT(test::error_of([&] { Animation(piped, {.clip = "Armature|Wolk"}); }),
+  EXPECT_EQ(scene::Animation(piped, {.clip = "Armature|Walk"}).timeline().frame_count, 25);
+  EXPECT_EQ(scene::Animation(piped, {.clip = "0"}).timeline().frame_count, 25);
+  EXPECT_THAT(test::error_of([&] { scene::Animation(piped, {.clip = "Armature|Wolk"}); }),
               testing::HasSubstr("Armature|Walk"));
 }
 

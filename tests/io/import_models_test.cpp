@@ -36,12 +36,12 @@ class Models : public testing::Test {
   }
 };
 
-double diagonal(const Animation::Bounds& bounds) {
+double diagonal(const scene::Animation::Bounds& bounds) {
   return glm::length(bounds.high - bounds.low);
 }
 
-Animation::Bounds bounds_of(const std::vector<glm::dvec3>& positions) {
-  Animation::Bounds bounds{positions.at(0), positions.at(0)};
+scene::Animation::Bounds bounds_of(const std::vector<glm::dvec3>& positions) {
+  scene::Animation::Bounds bounds{positions.at(0), positions.at(0)};
   for (const glm::dvec3& p : positions) {
     bounds.low = glm::min(bounds.low, p);
     bounds.high = glm::max(bounds.high, p);
@@ -127,13 +127,13 @@ TEST_F(Models, CountsAgreeWithTheInventory) {
 
 TEST_F(Models, FramesOfTheContract) {
   const io::Model simple = io::import_model(data() / "models" / "RiggedSimple.glb");
-  const Timeline rigged = Animation(simple, {}).timeline();
+  const scene::Timeline rigged = scene::Animation(simple, {}).timeline();
   // 2.0833 s in single precision falls just short of 50 intervals of 1/24 s.
   EXPECT_LT(rigged.duration * 24, 50);
   EXPECT_EQ(rigged.frame_count, 50 + 1);
   const io::Model fox = io::import_model(data() / "models" / "Fox.glb");
-  EXPECT_EQ(Animation(fox, {.clip = "Walk"}).timeline().frame_count, 17 + 1);
-  EXPECT_EQ(Animation(fox, {.clip = "1"}).clip_name(), "Walk");
+  EXPECT_EQ(scene::Animation(fox, {.clip = "Walk"}).timeline().frame_count, 17 + 1);
+  EXPECT_EQ(scene::Animation(fox, {.clip = "1"}).clip_name(), "Walk");
 }
 
 TEST_F(Models, PosesAreFiniteAndOfTheRightSize) {
@@ -142,11 +142,11 @@ TEST_F(Models, PosesAreFiniteAndOfTheRightSize) {
         "huesitos.fbx", "box_nested_animation.dae", "animation_with_skeleton.fbx",
         "ufbx_max_transformed_skin_7500_ascii.fbx", "ufbx_maya_axes_anim_7700_ascii.fbx"}) {
     SCOPED_TRACE(file);
-    Animation animation(io::import_model(data() / "models" / file), {});
+    scene::Animation animation(io::import_model(data() / "models" / file), {});
     const Surface& surface = animation.surface();
     const double rest_size = diagonal(bounds_of(surface.rest));
     for (const int frame : {1, animation.timeline().frame_count / 2 + 1, animation.timeline().frame_count}) {
-      const std::vector<glm::dvec3> positions = posed(surface, animation.pose(frame));
+      const std::vector<glm::dvec3> positions = scene::posed(surface, animation.pose(frame));
       for (const glm::dvec3& p : positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
       const std::vector<double> ratios = edge_ratios(surface, positions);
       // A body bends but does not grow: the middle edge keeps its length, four in five stay within a half of
@@ -165,23 +165,23 @@ TEST_F(Models, PosesAreFiniteAndOfTheRightSize) {
 // FBX files' node scale of 100 times unit of 1 cm, COLLADA's Z_UP.
 TEST_F(Models, StandUprightAndInMetres) {
   const auto box = [](const char* file) {
-    Animation animation(io::import_model(data() / "models" / file), {});
-    return bounds_of(posed(animation.surface(), animation.pose(1)));
+    scene::Animation animation(io::import_model(data() / "models" / file), {});
+    return bounds_of(scene::posed(animation.surface(), animation.pose(1)));
   };
   // Cylinder of radius 1 and length 9.15016 along the file's z, turned upright by its Z_UP node.
-  const Animation::Bounds rigged = box("RiggedSimple.glb");
+  const scene::Animation::Bounds rigged = box("RiggedSimple.glb");
   EXPECT_NEAR(rigged.high.y - rigged.low.y, 9.15016, 1e-4);
   EXPECT_NEAR(rigged.high.x - rigged.low.x, 2, 1e-4);
   // A cylinder 5.36 long in Blender's metres; exported in centimetres.
-  const Animation::Bounds bones = box("huesitos.fbx");
+  const scene::Animation::Bounds bones = box("huesitos.fbx");
   EXPECT_NEAR(bones.high.x - bones.low.x, 5.3577, 1e-3);
   EXPECT_NEAR(bones.high.y - bones.low.y, 5.43835, 1e-3);
   // Marvelous Designer: millimetres (0.1 cm), node scale 10.
-  const Animation::Bounds quad = box("ufbx_marvelous_quad_7700_binary.fbx");
+  const scene::Animation::Bounds quad = box("ufbx_marvelous_quad_7700_binary.fbx");
   EXPECT_NEAR(quad.high.x - quad.low.x, (31.9251 - 8.18182) * 10 / 1000, 1e-6);
   // Units and up axis given by hand win over the file's own.
   const io::Model turned = io::import_model(data() / "models" / "box_nested_animation.dae", {0.01, "y"});
-  const Animation::Bounds small = bounds_of(Animation(turned, {}).surface().rest);
+  const scene::Animation::Bounds small = bounds_of(scene::Animation(turned, {}).surface().rest);
   EXPECT_NEAR(diagonal(small), 0.02 * std::sqrt(3.0), 1e-6);
 }
 
@@ -200,7 +200,7 @@ TEST_F(Models, ColladaUnitsAndUpAxis) {
   std::ofstream(path) << text;
   const auto rest = [&](const fs::path& file, const io::ImportOptions& options) {
     const io::Model model = io::import_model(file, options);
-    return Animation(model, {}).surface().rest;
+    return scene::Animation(model, {}).surface().rest;
   };
   const std::vector<glm::dvec3> metres = rest(data() / "models" / "box_nested_animation.dae", {{}, "y"});
   const std::vector<glm::dvec3> centimetres = rest(path, {});
@@ -236,8 +236,8 @@ TEST_F(Models, SkinsLieWhereTheFormulaPutsThem) {
     SCOPED_TRACE(item.file);
     io::Model model = io::import_model(data() / "models" / item.file);
     model.clips.clear();
-    Animation animation(model, {});
-    const Animation::Bounds found = bounds_of(posed(animation.surface(), animation.pose(1)));
+    scene::Animation animation(model, {});
+    const scene::Animation::Bounds found = bounds_of(scene::posed(animation.surface(), animation.pose(1)));
 
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile((data() / "models" / item.file).string(), aiProcess_Triangulate);
@@ -258,7 +258,7 @@ TEST_F(Models, SkinsLieWhereTheFormulaPutsThem) {
       }
       for (const glm::dvec4& sum : sums) expected.emplace_back(glm::dvec3(sum) / sum.w);
     }
-    const Animation::Bounds formula = bounds_of(expected);
+    const scene::Animation::Bounds formula = bounds_of(expected);
     // Matrices in single precision multiplied through a dozen nodes.
     const double tolerance = 1e-5 * diagonal(found);
     EXPECT_NEAR(glm::distance(found.low, item.scale * formula.low), 0, tolerance);
@@ -325,7 +325,8 @@ TEST_F(Models, FbxPivotsBothWays) {
     const aiMesh& mesh = *scene->mMeshes[0];
     for (unsigned c = 0; c < scene->mNumAnimations; ++c) {
       const aiAnimation& clip = *scene->mAnimations[c];
-      Animation animation(model, {.clip = std::to_string(c), .frames_per_second = item.frames_per_second});
+      scene::Animation animation(model,
+                                 {.clip = std::to_string(c), .frames_per_second = item.frames_per_second});
       for (const int frame :
            {1, 1 + animation.timeline().frame_count / 2, animation.timeline().frame_count}) {
         SCOPED_TRACE(fmt::format("{}, clip {}, frame {}", item.file, c, frame));
@@ -343,8 +344,9 @@ TEST_F(Models, FbxPivotsBothWays) {
         }
         std::vector<glm::dvec3> expected;
         for (const glm::dvec4& sum : sums) expected.push_back(0.01 * glm::dvec3(sum) / sum.w);
-        const Animation::Bounds found = bounds_of(posed(animation.surface(), animation.pose(frame)));
-        const Animation::Bounds formula = bounds_of(expected);
+        const scene::Animation::Bounds found =
+            bounds_of(scene::posed(animation.surface(), animation.pose(frame)));
+        const scene::Animation::Bounds formula = bounds_of(expected);
         // Matrices in single precision multiplied through a dozen nodes.
         EXPECT_NEAR(glm::distance(found.low, formula.low), 0, 1e-5 * diagonal(formula));
         EXPECT_NEAR(glm::distance(found.high, formula.high), 0, 1e-5 * diagonal(formula));
@@ -355,10 +357,11 @@ TEST_F(Models, FbxPivotsBothWays) {
 
 // Exported by Maya with its pre-rotations: in the first frame of "spin" all joints stand as they were bound.
 TEST_F(Models, FbxPreRotationsCountOnce) {
-  Animation animation(io::import_model(data() / "models" / "ufbx_maya_game_sausage_7500_binary_combined.fbx"),
-                      {.clip = "spin"});
+  scene::Animation animation(
+      io::import_model(data() / "models" / "ufbx_maya_game_sausage_7500_binary_combined.fbx"),
+      {.clip = "spin"});
   const Surface& surface = animation.surface();
-  const std::vector<glm::dvec3> first = posed(surface, animation.pose(1));
+  const std::vector<glm::dvec3> first = scene::posed(surface, animation.pose(1));
   for (std::size_t v = 0; v < first.size(); ++v)
     EXPECT_NEAR(glm::distance(first[v], surface.bind[v]), 0, 1e-7);  // 27 mm long
 }
@@ -422,19 +425,19 @@ TEST_F(Models, StrongestEightOfTenInfluences) {
 TEST_F(Models, ClothSequence) {
   const io::Model model = io::import_model(data() / "cloth-drape", {{}, "z"});
   EXPECT_EQ(model.cache.size(), 48U);
-  Animation animation(model, {});
+  scene::Animation animation(model, {});
   const Surface& surface = animation.surface();
   EXPECT_EQ(surface.vertex_count(), 1369U);  // 37 × 37, nothing to weld
   EXPECT_EQ(surface.triangle_count(), 2592U);
   EXPECT_EQ(animation.timeline().frame_count, 48);
   // The first frame is flat, one metre wide, and horizontal once z is up; later it falls.
-  const Animation::Bounds flat = bounds_of(surface.rest);
+  const scene::Animation::Bounds flat = bounds_of(surface.rest);
   EXPECT_NEAR(flat.high.x - flat.low.x, 1, 1e-6);
   EXPECT_NEAR(flat.high.y - flat.low.y, 0, 1e-9);
-  const Animation::Bounds fallen = bounds_of(posed(surface, animation.pose(48)));
+  const scene::Animation::Bounds fallen = bounds_of(scene::posed(surface, animation.pose(48)));
   EXPECT_LT(fallen.low.y, -0.3);
   // The first frame as a file of its own is the same rest pose.
-  Animation named(model, {.rest = (data() / "cloth-drape" / "drape_0001.obj").string()});
+  scene::Animation named(model, {.rest = (data() / "cloth-drape" / "drape_0001.obj").string()});
   EXPECT_EQ(named.surface().rest, surface.rest);
 }
 

@@ -133,7 +133,7 @@ TEST_F(Ply, SequencesKeepTheirMesh) {
   std::string other = ascii_square();
   other.replace(other.find("4 0 1 2 3"), 9, "4 1 2 3 0");
   write("c_02.ply", other);
-  EXPECT_THAT(test::error_of([&] { Animation(import_model(folder_.path()), {}); }),
+  EXPECT_THAT(test::error_of([&] { scene::Animation(import_model(folder_.path()), {}); }),
               AllOf(HasSubstr("c_02.ply"), HasSubstr("other vertices")));
 }
 
@@ -201,10 +201,10 @@ TEST_F(PointCaches, MoveTheVerticesOfTheFile) {
     ASSERT_EQ(model.meshes[0].positions.size(), 6U);
     // Vertex 0 of the mesh is vertex 4 of the file, at (0, 1, 0.5 + f); z up and centimetres.
     EXPECT_NEAR(glm::distance(model.cache.frame(2)->at(0), glm::dvec3(0, 0.025, -0.01)), 0, 1e-9);
-    Animation animation(model, {});
+    scene::Animation animation(model, {});
     EXPECT_EQ(animation.surface().vertex_count(), 4U);
     EXPECT_EQ(animation.timeline().frame_count, 3);
-    EXPECT_NEAR(posed(animation.surface(), animation.pose(3))[0].y, 0.025, 1e-9);
+    EXPECT_NEAR(scene::posed(animation.surface(), animation.pose(3))[0].y, 0.025, 1e-9);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipeline/drape_examples.h"
+#include "cloth/drape_examples.h"
 #include "shell/carry.h"
 #include "shell/fundamental_forms.h"
 
@@ -11,14 +11,14 @@ namespace plisse::shell {
 namespace {
 
 struct Solved {
-  DrapeScene scene;
+  cloth::DrapeScene scene;
   Shell shell;
   Equilibrium equilibrium;
   std::map<std::string, double> measures;
 };
 
 Solved solve(const std::string& name, int vertices, double t = 1) {
-  Solved s{drape_example(name, vertices), {}, {}, {}};
+  Solved s{cloth::drape_example(name, vertices), {}, {}, {}};
   s.shell.topology = build_topology(s.scene.faces, static_cast<std::size_t>(s.scene.start.cols()));
   s.shell.rest = rest_faces(s.scene.rest, s.scene.rest_faces);
   s.shell.material = s.scene.material;
@@ -119,7 +119,7 @@ TEST(ShellKnownAnswersSlow, TorusIsRound) {
 
 // Every example converges on a small mesh, with nothing inside its obstacles.
 TEST(ShellKnownAnswersSlow, EveryExampleConverges) {
-  for (const DrapeExample& example : drape_examples()) {
+  for (const cloth::DrapeExample& example : cloth::drape_examples()) {
     const Solved s = solve(example.name, 150);
     EXPECT_TRUE(s.equilibrium.positions.allFinite()) << example.name;
     for (const Obstacle& obstacle : s.scene.loads.obstacles)
