@@ -27,7 +27,7 @@ using test::Sheet;
 
 class Render : public test::OpenGlTest {};
 
-struct pipeline::Picture {
+struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgba;  // floats, or bytes as 0…255
   const float* at(int x, int y) const { return &rgba[4 * static_cast<std::size_t>(y * width + x)]; }
@@ -100,14 +100,14 @@ struct Stage {
     return result;
   }
 
-  pipeline::Picture aov(Aov which, int width, int height_in_pixels) const {
+  Picture aov(Aov which, int width, int height_in_pixels) const {
     const Passes surface = passes();
     RenderPass pass(look, make_profile(profile), parts, textures, "");
     const gpu::Target target(width, height_in_pixels, 1, gpu::Target::Format::rgba32f);
     pass.draw_aov(surface.buffers, view, target, which);
     return {width, height_in_pixels, target.read_rgba32f()};
   }
-  pipeline::Picture draw(int width, int height_in_pixels, int samples = 1) const {
+  Picture draw(int width, int height_in_pixels, int samples = 1) const {
     const Passes surface = passes();
     RenderPass pass(look, make_profile(profile), parts, textures, "");
     const gpu::Target target(width, height_in_pixels, samples, gpu::Target::Format::srgb8);
@@ -122,7 +122,7 @@ Sheet unit_square(int side = 7) {
 }
 
 // Point of the plane under the middle of a pixel of the window 0…1.
-glm::dvec2 under(const pipeline::Picture& picture, int x, int y) {
+glm::dvec2 under(const Picture& picture, int x, int y) {
   return {(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height};
 }
 
@@ -148,8 +148,7 @@ TEST_F(Render, APlaneWavesNormalsAreAnalytic) {
       constexpr double amplitude = 0.04, start = 0.7;
       stage.plane_wave(kappa, amplitude, start);
       stage.window({0.1, 0.1}, {1.1, 1.1});
-      const pipeline::Picture normals = stage.aov(Aov::normal, 128, 128),
-                              heights = stage.aov(Aov::height, 128, 128);
+      const Picture normals = stage.aov(Aov::normal, 128, 128), heights = stage.aov(Aov::height, 128, 128);
       for (int y = 0; y < 128; y += 3) {
         for (int x = 0; x < 128; x += 3) {
           const double phase = 2 * pi * glm::dot(kappa, under(normals, x, y) + 0.1) + start;
@@ -170,7 +169,7 @@ TEST_F(Render, AccordionHasStraightFlanks) {
   Stage stage(unit_square());
   stage.plane_wave({2 / W, 0}, 0.2165064 * W, 0);
   stage.profile = "accordion";
-  const pipeline::Picture normals = stage.aov(Aov::normal, 256, 8);
+  const Picture normals = stage.aov(Aov::normal, 256, 8);
   int steep = 0;
   for (int x = 0; x < 256; ++x) {
     const double along = std::fmod(under(normals, x, 0).x * 2 / W, 0.5);
@@ -241,7 +240,7 @@ TEST_F(Render, WavesFadeBetweenFourAndTwoPixels) {
   const auto steepest = [&](double pixels_a_wave) {
     const double kappa = size / pixels_a_wave;
     stage.plane_wave({kappa, 0}, amplitude, pi / 4);
-    const pipeline::Picture normals = stage.aov(Aov::normal, size, 4);
+    const Picture normals = stage.aov(Aov::normal, size, 4);
     double steepest_seen = 0;
     for (int x = 0; x < size; ++x) {
       const glm::dvec3 n = normals.colour(x, 2);
@@ -259,7 +258,7 @@ TEST_F(Render, WavesFadeBetweenFourAndTwoPixels) {
   EXPECT_EQ(steepest(2), 0.0);
   EXPECT_EQ(steepest(1.5), 0.0);
   // smoothstep(¼, ½) at ⅓ turn a pixel is 1/3²·(3 − 2/3) = .2593.
-  const pipeline::Picture amplitudes =
+  const Picture amplitudes =
       (stage.plane_wave({size / 3.0, 0}, amplitude, 0), stage.aov(Aov::amplitude, size, 4));
   EXPECT_NEAR(amplitudes.colour(20, 2).x / amplitude, 1 - 0.259259, 1e-3);
 }
@@ -297,8 +296,7 @@ TEST_F(Render, FullGradientIsTheSlopeOfTheDrawnHeights) {
     stage.random_phases(3);
     const auto largest_error = [&](bool full) {
       stage.look.full_gradient = full;
-      const pipeline::Picture normals = stage.aov(Aov::normal, 512, 512),
-                              heights = stage.aov(Aov::height, 512, 512);
+      const Picture normals = stage.aov(Aov::normal, 512, 512), heights = stage.aov(Aov::height, 512, 512);
       double largest = 0;
       int looked_at = 0;
       for (int y = 1; y < 511; y += 2) {
@@ -332,7 +330,7 @@ TEST_F(Render, SmoothBlendTakesTheCreasesAway) {
     stage.random_phases(seed);
     const auto jump = [&](bool smooth, int size) {
       stage.look.smooth_blend = smooth;
-      const pipeline::Picture normals = stage.aov(Aov::normal, size, size);
+      const Picture normals = stage.aov(Aov::normal, size, size);
       double largest = 0;
       for (int i = size / 10; i < size - size / 10;
            ++i) {  // the diagonal runs through pixels (i, size − 1 − i)
@@ -356,10 +354,8 @@ TEST_F(Render, OtherOutputs) {
   const glm::dvec2 kappa(3, 4);
   stage.plane_wave(kappa, 0.01, 0.4);
   stage.view.view_projection = glm::ortho(0.0, 1.0, 0.0, 1.0, -10.0, 10.0);
-  const pipeline::Picture amplitude = stage.aov(Aov::amplitude, 64, 64),
-                          phase = stage.aov(Aov::phase, 64, 64),
-                          direction = stage.aov(Aov::direction, 64, 64),
-                          depth = stage.aov(Aov::depth, 64, 64);
+  const Picture amplitude = stage.aov(Aov::amplitude, 64, 64), phase = stage.aov(Aov::phase, 64, 64),
+                direction = stage.aov(Aov::direction, 64, 64), depth = stage.aov(Aov::depth, 64, 64);
   for (int y = 1; y < 64; y += 7) {
     for (int x = 1; x < 64; x += 7) {
       const glm::dvec2 p = under(phase, x, y);
@@ -429,7 +425,7 @@ TEST_F(Render, BothSidesAreLitUnlessTheMaterialHasOne) {
   };
   EXPECT_LT(glm::distance(stage.aov(Aov::normal, 8, 8).colour(4, 4), glm::dvec3(0, 0, 1)), 1e-6);
   from_below();
-  const pipeline::Picture behind = stage.aov(Aov::normal, 8, 8);
+  const Picture behind = stage.aov(Aov::normal, 8, 8);
   EXPECT_EQ(behind.alpha(4, 4), 1);
   EXPECT_LT(glm::distance(behind.colour(4, 4), glm::dvec3(0, 0, -1)), 1e-6);
   // A crest seen from behind is a valley: the slope keeps its place in the world and turns with the normal.
@@ -448,7 +444,7 @@ TEST_F(Render, ValleysSeeLessOfTheSky) {
   stage.view.up = {0, 1, 0};  // waves run along x: N·up = 0 everywhere
   constexpr double kappa = 4, amplitude = 0.04;
   stage.plane_wave({kappa, 0}, amplitude, 0);
-  const pipeline::Picture picture = stage.draw(256, 4);
+  const Picture picture = stage.draw(256, 4);
   // On the valley's floor 1 − (1 − cos ψ), ψ the walls' angle; on the crest everything.
   const double q = 2 * pi * amplitude * kappa;
   EXPECT_NEAR(picture.colour(64, 2).x, srgb(0.3), 1.5);                         // x = ¼: crest
@@ -466,7 +462,7 @@ TEST_F(Render, FourSamplesAverageLightAtAnEdge) {
   Stage stage(
       test::sheet({{-1, -1, 0}, {10.5 / 32, -1, 0}, {10.5 / 32, 2, 0}, {-1, 2, 0}}, {0, 1, 2, 0, 2, 3}));
   stage.parts[0].base_colour = {0.8F, 0.8F, 0.8F, 1};
-  const pipeline::Picture four = stage.draw(32, 8, 4);
+  const Picture four = stage.draw(32, 8, 4);
   for (int y = 0; y < 8; ++y) {
     EXPECT_NEAR(four.colour(9, y).x, srgb(0.8), 1.01);
     EXPECT_NEAR(four.colour(10, y).x, srgb(0.4),
@@ -481,7 +477,7 @@ TEST_F(Render, CoverageOfATriangleIsItsArea) {
   stage.look.transparent = true;
   const double area = 0.5 * ((0.91 - 0.1) * (0.88 - 0.13) - (0.37 - 0.1) * (0.2 - 0.13));
   for (const int samples : {1, 4}) {
-    const pipeline::Picture picture = stage.draw(100, 100, samples);
+    const Picture picture = stage.draw(100, 100, samples);
     double covered = 0;
     int between = 0;
     for (int y = 0; y < 100; ++y) {
@@ -499,7 +495,7 @@ TEST_F(Render, CoverageOfATriangleIsItsArea) {
 TEST_F(Render, BackgroundsAreColourOrNothing) {
   Stage stage(test::sheet({{2, 2, 0}, {3, 2, 0}, {2, 3, 0}}, {0, 1, 2}));  // out of view
   stage.look.background = {0.5, 0.25, 0.05};
-  const pipeline::Picture filled = stage.draw(4, 4, 4);
+  const Picture filled = stage.draw(4, 4, 4);
   EXPECT_NEAR(filled.colour(1, 1).x, srgb(0.5), 1.01);
   EXPECT_NEAR(filled.colour(1, 1).y, srgb(0.25), 1.01);
   EXPECT_NEAR(filled.colour(1, 1).z, srgb(0.05), 1.01);
@@ -522,7 +518,7 @@ TEST_F(Render, AlphaBlendsOverWhatIsBehind) {
   stage.parts[0].has_alpha = true;
   stage.look.transparent = true;
   stage.look.background = glm::dvec3(0);
-  const pipeline::Picture clear = stage.draw(4, 4);
+  const Picture clear = stage.draw(4, 4);
   EXPECT_NEAR(clear.alpha(2, 2), 127.5, 1.01);
   EXPECT_NEAR(clear.colour(2, 2).x, srgb(0.3), 1.01);
 }
@@ -539,10 +535,10 @@ TEST_F(Render, ADarkVeilOverTheGround) {
     stage.view.ambient = glm::dvec3(0);
     stage.look.sheen = 0;
     stage.parts[0].base_colour = {0, 0, 0, 0};
-    const pipeline::Picture bare = stage.draw(16, 16, samples);
+    const Picture bare = stage.draw(16, 16, samples);
     for (const float alpha : {0.5F, 0.9745F, 0.99F}) {
       stage.parts[0].base_colour.a = alpha;
-      const pipeline::Picture veiled = stage.draw(16, 16, samples);
+      const Picture veiled = stage.draw(16, 16, samples);
       const double behind = srgb_to_linear(bare.colour(8, 8).x / 255);
       EXPECT_NEAR(veiled.colour(8, 8).x, srgb((1 - static_cast<double>(alpha)) * behind), 1.01) << alpha;
     }
@@ -597,7 +593,7 @@ TEST_F(Render, TexturesStandUpright) {
   stage.textures = {mip_levels(16, 16, rgba)};
   stage.parts[0].texture = 0;
   stage.view.ambient = glm::dvec3(0.7);  // below the shoulder
-  const pipeline::Picture picture = stage.draw(64, 64);
+  const Picture picture = stage.draw(64, 64);
   const double full = srgb(0.7);
   const auto expect = [&](int x, int y, const glm::dvec3& colour) {
     EXPECT_LT(glm::distance(picture.colour(x, y), colour * full), 3) << x << "," << y;
@@ -639,7 +635,7 @@ TEST_F(Render, MasksCut) {
   stage.textures = {two_halves(100)};
   stage.parts[0].texture = 0;
   stage.parts[0].alpha_cutoff = 0.5F;
-  const pipeline::Picture picture = stage.draw(64, 64);
+  const Picture picture = stage.draw(64, 64);
   EXPECT_EQ(picture.colour(10, 32).x, 0);  // 100/255 is below ½
   EXPECT_GT(picture.colour(50, 32).x, 100);
   stage.parts[0].alpha_cutoff = 0.3F;
@@ -663,7 +659,7 @@ TEST_F(Render, ParallaxShiftsTowardTheViewer) {
     // A wave a thousand units long, on its crest or in its valley everywhere.
     stage.plane_wave({1e-3, 0}, std::abs(height), height < 0 ? pi : 0);
     stage.view.view_projection = glm::ortho(0.0, 1.0, 0.4985, 0.5015, -10.0, 10.0);  // square pixels
-    const pipeline::Picture picture = stage.draw(width, 3);
+    const Picture picture = stage.draw(width, 3);
     // Half way between the halves in linear light, where the texture is filtered.
     const auto linear = [](double byte) { return std::pow((byte / 255 + 0.055) / 1.055, 2.4); };
     const double threshold = srgb(0.5 * (linear(60) + linear(200)));
@@ -700,7 +696,7 @@ TEST_F(Render, ShadowsTakeTheKeyLightAlone) {
   stage.view.lights[0].direction = glm::normalize(glm::dvec3(1, 0, 1));
   stage.view.bounds_centre = {0, 0, 0.15};
   stage.view.bounds_radius = 1.5;
-  const pipeline::Picture picture = stage.draw(200, 200);
+  const Picture picture = stage.draw(200, 200);
   const auto at = [&](double x, double y) {
     return picture.colour(static_cast<int>(100 + 100 * x), static_cast<int>(100 - 100 * y)).x;
   };
@@ -716,7 +712,7 @@ TEST_F(Render, ShadowsTakeTheKeyLightAlone) {
   }
   EXPECT_NEAR(at(-0.3, 0.25), lit, 1.5);
   stage.look.shadows = false;
-  const pipeline::Picture without = stage.draw(200, 200);
+  const Picture without = stage.draw(200, 200);
   EXPECT_NEAR(without.colour(70, 100).x, lit, 1.5);
 }
 
@@ -724,11 +720,11 @@ TEST_F(Render, PlainDrawsTheSameSurfaceWithoutWaves) {
   Stage stage(unit_square());
   stage.view.lights[0].colour = glm::dvec3(0.6);
   stage.view.lights[0].direction = glm::normalize(glm::dvec3(1, 0, 1));
-  const pipeline::Picture flat = stage.draw(32, 32);
+  const Picture flat = stage.draw(32, 32);
   stage.plane_wave({4, 0}, 0.03, 0);
-  const pipeline::Picture waves = stage.draw(32, 32);
+  const Picture waves = stage.draw(32, 32);
   stage.look.plain = true;
-  const pipeline::Picture plain = stage.draw(32, 32);
+  const Picture plain = stage.draw(32, 32);
   EXPECT_NE(waves.rgba, flat.rgba);
   for (std::size_t i = 0; i < plain.rgba.size(); ++i) EXPECT_NEAR(plain.rgba[i], flat.rgba[i], 1);
 }
@@ -749,7 +745,7 @@ TEST_F(Render, GroundAndWireframeOnlyAdd) {
   stage.view.lights[0].colour = glm::dvec3(0.5);
   stage.view.view_projection =
       glm::perspective(0.6, 1.0, 0.1, 50.0) * glm::lookAt(stage.view.eye, {0, 0.25, 0}, {0, 1, 0});
-  const pipeline::Picture with = stage.draw(128, 128);
+  const Picture with = stage.draw(128, 128);
   // Far from the plate: the background, a little brighter in the middle and darker in the corners, without
   // hard edges.
   const double plain = srgb(0.5);
@@ -763,11 +759,11 @@ TEST_F(Render, GroundAndWireframeOnlyAdd) {
   const int py = static_cast<int>((0.5 - under_plate.y / under_plate.w * 0.5) * 128);
   Stage empty = stage;
   for (const auto& x : stage.sheet.surface.rest) empty.positions.push_back(x + glm::dvec3(0, 100, 0));
-  const pipeline::Picture without = empty.draw(128, 128);
+  const Picture without = empty.draw(128, 128);
   EXPECT_LT(with.colour(px, py).x, without.colour(px, py).x - 15);
   EXPECT_NEAR(with.colour(2, 2).x, without.colour(2, 2).x, 1);
   stage.look.wireframe = true;
-  const pipeline::Picture lines = stage.draw(128, 128);
+  const Picture lines = stage.draw(128, 128);
   int darker = 0;
   for (std::size_t i = 0; i < lines.rgba.size(); i += 4) darker += lines.rgba[i] < with.rgba[i] - 20 ? 1 : 0;
   EXPECT_GT(darker, 60);
