@@ -1,8 +1,9 @@
 #include "base/text.h"
 
-#include <algorithm>
-
 namespace plisse {
+namespace {
+constexpr std::string_view blanks = " \t\r\f";
+}
 
 std::size_t letters(std::string_view text) {
   // Bytes 10xxxxxx continue a letter.
@@ -41,6 +42,24 @@ std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::string_view next_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (auto word = next_word(text); !word.empty(); word = next_word(text)) words.push_back(word);
+  return words;
 }
 
 }  // namespace plisse

@@ -135,28 +135,21 @@ void write_base(const std::filesystem::path& path, const DrapeScene& scene, cons
                   fmt::format("thickness {}", scene.material.thickness),
                   fmt::format("density {}", scene.material.density)};
   if (!frame.equilibrium.converged) ply.comments.push_back("not converged: " + frame.equilibrium.reason);
-  const auto count = static_cast<std::size_t>(positions.cols());
-  io::PlyElement vertices{"vertex", count, {{"x"}, {"y"}, {"z"}, {"held", PlyProperty::Type::uint8}}};
+  io::PlyElement vertices{"vertex", static_cast<std::size_t>(positions.cols())},
+      faces{"face", scene.faces.size()};
+  vertices.add_vectors("", PlyProperty::Type::float64, points_to_glm(positions));
+  PlyProperty& held = vertices.properties.emplace_back(PlyProperty{"held", PlyProperty::Type::uint8});
   const shell::Conditions conditions = scene.conditions(frame.load);
-  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-    for (int axis = 0; axis < 3; ++axis)
-      vertices.properties[static_cast<std::size_t>(axis)].values.push_back(positions(axis, v));
-    vertices.properties[3].values.push_back(conditions.held.col(v).all() ? 1 : 0);
+  for (Eigen::Index v = 0; v < positions.cols(); ++v)
+    held.values.push_back(conditions.held.col(v).all() ? 1 : 0);
+  std::vector<double> corners, flat;
+  for (const shell::Face& face : scene.faces) corners.insert(corners.end(), face.begin(), face.end());
+  for (const shell::RestFace& rest : shell::rest_faces(scene.rest, scene.rest_faces)) {
+    const Eigen::Matrix2d& edges = rest.edges;
+    flat.insert(flat.end(), {0, 0, edges(0, 0), edges(1, 0), edges(0, 1), edges(1, 1)});
   }
-  io::PlyElement faces{
-      "face",
-      scene.faces.size(),
-      {{"vertex_indices", PlyProperty::Type::int32, true}, {"rest", PlyProperty::Type::float64, true}}};
-  const auto rest = shell::rest_faces(scene.rest, scene.rest_faces);
-  for (std::size_t f = 0; f < scene.faces.size(); ++f) {
-    auto& corners = faces.properties[0];
-    for (const std::uint32_t v : scene.faces[f]) corners.values.push_back(v);
-    corners.ends.push_back(corners.values.size());
-    auto& flat = faces.properties[1];
-    const Eigen::Matrix2d& edges = rest[f].edges;
-    flat.values.insert(flat.values.end(), {0, 0, edges(0, 0), edges(1, 0), edges(0, 1), edges(1, 1)});
-    flat.ends.push_back(flat.values.size());
-  }
+  faces.add_lists("vertex_indices", PlyProperty::Type::int32, 3, std::move(corners));
+  faces.add_lists("rest", PlyProperty::Type::float64, 6, std::move(flat));
   ply.elements = {std::move(vertices), std::move(faces)};
   io::write_ply(path, ply);
 }

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "cloth/drape_garment.h"
 #include "cloth/drape_mesh.h"
@@ -24,7 +24,7 @@
 #include "config/drape_file.h"
 #include "config/fabric.h"
 #include "config/panel_file.h"
-#include "io/import_obj.h"
+#include "io/obj.h"
 
 namespace plisse::cloth {
 namespace {
@@ -35,17 +35,9 @@ using shell::Conditions;
 using shell::Positions;
 
 FlatMesh read_mesh(const fs::path& file) {
-  const io::ObjFile obj = io::read_obj_file(file);
+  const io::ObjFile obj = io::read_obj(file);
   if (obj.triangles.empty()) throw Error(ExitCode::bad_input, fmt::format("{}: has no faces", file.string()));
-  FlatMesh mesh;
-  mesh.points.resize(3, static_cast<Eigen::Index>(obj.positions.size()));
-  for (std::size_t v = 0; v < obj.positions.size(); ++v)
-    mesh.points.col(static_cast<Eigen::Index>(v)) = to_eigen(obj.positions[v]);
-  for (const auto& triangle : obj.triangles)
-    mesh.faces.push_back({static_cast<std::uint32_t>(triangle[0].position),
-                          static_cast<std::uint32_t>(triangle[1].position),
-                          static_cast<std::uint32_t>(triangle[2].position)});
-  return mesh;
+  return {points_to_eigen(obj.positions), obj.faces()};
 }
 
 // --- our own scenes
@@ -308,41 +300,37 @@ class Setup {
 
 // "count", "#", then lines "vertex x y z" with # in place of a coordinate that is free.
 Conditions read_clamps(const fs::path& file, std::size_t vertices) {
-  const auto bytes = read_whole_file(file);
-  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
   Conditions conditions(vertices);
-  std::string line;
-  int number = 0, found = 0;
+  std::size_t number = 0;
+  int found = 0;
   std::optional<int> expected;
   const auto fail = [&](const std::string& what) {
     throw Error(ExitCode::bad_input, fmt::format("{}:{}: {}", file.string(), number, what));
   };
-  while (std::getline(lines, line)) {
-    ++number;
-    std::istringstream words(line);
-    std::vector<std::string> word;
-    for (std::string w; words >> w;) word.push_back(w);
-    if (word.empty() || (word.size() == 1 && word[0] == "#")) continue;
+  for_each_line(read_whole_text(file), [&](std::string_view line, std::size_t line_number) {
+    number = line_number;
+    const auto word = words_of(line);
+    if (word.empty() || (word.size() == 1 && word[0] == "#")) return;
     if (!expected && word.size() == 1) {
       const auto count = parse_number(word[0]);
       if (!count || *count < 0 || *count != std::floor(*count))
         fail("the number of clamped vertices is wanted");
       expected = static_cast<int>(*count);
-      continue;
+      return;
     }
     if (word.size() != 4) fail("a vertex and three coordinates are wanted, # for one that is free");
     const auto vertex = parse_number(word[0]);
     if (!vertex || *vertex < 0 || *vertex >= static_cast<double>(vertices) || *vertex != std::floor(*vertex))
       fail(fmt::format("'{}' is no vertex; allowed: 0 to {}", word[0], vertices - 1));
     for (int axis = 0; axis < 3; ++axis) {
-      const std::string& text = word[static_cast<std::size_t>(axis) + 1];
+      const std::string_view text = word[static_cast<std::size_t>(axis) + 1];
       if (text == "#") continue;
       const auto at = parse_number(text);
       if (!at || !std::isfinite(*at)) fail(fmt::format("'{}' is no coordinate", text));
       conditions.hold(static_cast<std::uint32_t>(*vertex), axis, *at);
     }
     ++found;
-  }
+  });
   if (expected && found != *expected)
     fail(fmt::format("{} vertices are promised, there are {}", *expected, found));
   return conditions;

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "cloth/size_picture.h"
 #include "config/panel_file.h"
+#include "io/obj.h"
+#include "io/ply.h"
 #include "io/png.h"
 #include "sizing/sample.h"
 
@@ -19,31 +20,25 @@ namespace {
 using sizing::Panel;
 using sizing::SizedPanel;
 
-// In OBJ names a space ends the name.
-std::string one_word(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, '_');
-  return text;
+io::ObjFile::Corner corner(std::size_t position, std::size_t uv) {
+  return {static_cast<std::int32_t>(position), static_cast<std::int32_t>(uv)};
 }
 
 // Vertices in the plane z = 0, metres; uv are panel coordinates. Lines of the outline and of each feature are
 // groups of line elements.
-std::string obj_text(const Panel& panel, const SizedPanel& sized) {
-  std::string text =
-      fmt::format("# plisse size: metres; uv = panel coordinates\no {}\n", one_word(panel.name));
-  for (const auto& v : sized.mesh.vertices)
-    fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} 0\n", v.x, v.y);
-  for (const auto& v : sized.mesh.vertices)
-    fmt::format_to(std::back_inserter(text), "vt {:.9g} {:.9g}\n", v.x, v.y);
-  for (const auto& [a, b, c] : sized.mesh.triangles)
-    fmt::format_to(std::back_inserter(text), "f {0}/{0} {1}/{1} {2}/{2}\n", a + 1, b + 1, c + 1);
+void write_obj(const std::filesystem::path& path, const Panel& panel, const SizedPanel& sized) {
+  io::ObjWriter obj("plisse size: metres; uv = panel coordinates", panel.name);
+  for (const auto& v : sized.mesh.vertices) obj.position({v, 0});
+  for (const auto& v : sized.mesh.vertices) obj.uv(v);
+  for (const auto& [a, b, c] : sized.mesh.triangles) obj.face({corner(a, a), corner(b, b), corner(c, c)});
   const auto group = [&](const std::string& name, const auto& wanted) {
-    std::string lines;
+    bool named = false;
     for (const auto& edge : sized.mesh.line_edges) {
-      if (wanted(sized.domain.lines[edge.line]))
-        fmt::format_to(std::back_inserter(lines), "l {} {}\n", edge.a + 1, edge.b + 1);
+      if (!wanted(sized.domain.lines[edge.line])) continue;
+      if (!named) obj.group(name);
+      named = true;
+      obj.line(edge.a, edge.b);
     }
-    if (!lines.empty()) text += fmt::format("g {}\n{}", one_word(name), lines);
   };
   group("outline", [](const auto& line) { return line.boundary; });
   for (std::size_t f = 0; f < panel.features.size(); ++f) {
@@ -52,57 +47,69 @@ std::string obj_text(const Panel& panel, const SizedPanel& sized) {
              line.features.end();
     });
   }
-  return text;
+  obj.write(path);
 }
 
 // The mesh with the sizing map at its vertices: resolution in weft and warp, and the map's colour.
-std::string ply_text(const SizedPanel& sized, const SizeScale& scale) {
+void write_ply(const std::filesystem::path& path, const SizedPanel& sized, const SizeScale& scale) {
+  using Type = io::PlyProperty::Type;
   const auto& mesh = sized.mesh;
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment plisse size: metres; s, t = panel coordinates; weft, warp = edge "
-      "length wanted\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty double "
-      "s\nproperty double t\n"
-      "property float weft\nproperty float warp\nproperty uchar red\nproperty uchar green\nproperty uchar "
-      "blue\n"
-      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
+  io::PlyElement vertex{"vertex",
+                        mesh.vertices.size(),
+                        {{"x"},
+                         {"y"},
+                         {"z"},
+                         {"s"},
+                         {"t"},
+                         {"weft", Type::float32},
+                         {"warp", Type::float32},
+                         {"red", Type::uint8},
+                         {"green", Type::uint8},
+                         {"blue", Type::uint8}}};
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const auto& v = mesh.vertices[i];
     const glm::dvec2 r = sized.map->resolution(sized.domain.to_working * v);
     const auto colour = scale.colour(mesh.sizes[i]);
-    fmt::format_to(std::back_inserter(text),
-                   "{0:.9g} {1:.9g} 0 {0:.9g} {1:.9g} {2:.6g} {3:.6g} {4} {5} {6}\n", v.x, v.y, r.x, r.y,
-                   colour[0], colour[1], colour[2]);
+    const double values[] = {v.x,
+                             v.y,
+                             0,
+                             v.x,
+                             v.y,
+                             r.x,
+                             r.y,
+                             static_cast<double>(colour[0]),
+                             static_cast<double>(colour[1]),
+                             static_cast<double>(colour[2])};
+    for (std::size_t p = 0; p < vertex.properties.size(); ++p)
+      vertex.properties[p].values.push_back(values[p]);
   }
-  for (const auto& [a, b, c] : mesh.triangles)
-    fmt::format_to(std::back_inserter(text), "3 {} {} {}\n", a, b, c);
-  return text;
+  std::vector<double> corners;
+  for (const auto& triangle : mesh.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  io::PlyElement face{"face", mesh.triangles.size()};
+  face.add_lists("vertex_indices", Type::uint32, 3, std::move(corners));
+  io::write_ply(path,
+                {{"plisse size: metres; s, t = panel coordinates; weft, warp = edge length wanted"},
+                 {std::move(vertex), std::move(face)}},
+                io::PlyFormat::ascii);
 }
 
 // Panels as groups of faces, seams as groups of lines.
-std::string garment_text(const sizing::Garment& garment, const sizing::SizedGarment& sewn) {
-  std::string text = "# plisse size: panels sewn to one mesh; metres; uv = panel coordinates\no garment\n";
-  const auto out = std::back_inserter(text);
-  for (const glm::dvec3& p : sewn.positions) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
+void write_garment(const std::filesystem::path& path, const sizing::Garment& garment,
+                   const sizing::SizedGarment& sewn) {
+  io::ObjWriter obj("plisse size: panels sewn to one mesh; metres; uv = panel coordinates", "garment");
+  for (const glm::dvec3& p : sewn.positions) obj.position(p);
   for (const auto& panel : sewn.panels)
-    for (const glm::dvec2& p : panel->mesh.vertices) fmt::format_to(out, "vt {:.9g} {:.9g}\n", p.x, p.y);
+    for (const glm::dvec2& p : panel->mesh.vertices) obj.uv(p);
   for (std::size_t p = 0; p < sewn.panels.size(); ++p) {
-    fmt::format_to(out, "g {}\n", one_word(garment.panels[p].name));
-    for (const auto& triangle : sewn.panels[p]->mesh.triangles) {
-      text += 'f';
-      for (const std::uint32_t corner : triangle) {
-        const std::uint32_t uv = sewn.first[p] + corner;
-        fmt::format_to(out, " {}/{}", sewn.sewn[uv] + 1, uv + 1);
-      }
-      text += '\n';
-    }
+    obj.group(garment.panels[p].name);
+    const auto at = [&](std::uint32_t v) { return corner(sewn.sewn[sewn.first[p] + v], sewn.first[p] + v); };
+    for (const auto& [a, b, c] : sewn.panels[p]->mesh.triangles) obj.face({at(a), at(b), at(c)});
   }
   for (std::size_t s = 0; s < sewn.seam_edges.size(); ++s) {
-    fmt::format_to(out, "g {}\n", one_word(garment.seams[s].name));
-    for (const auto& [a, b] : sewn.seam_edges[s]) fmt::format_to(out, "l {} {}\n", a + 1, b + 1);
+    obj.group(garment.seams[s].name);
+    for (const auto& [a, b] : sewn.seam_edges[s]) obj.line(a, b);
   }
-  return text;
+  obj.write(path);
 }
 
 double area_of(const Panel& panel) {
@@ -156,16 +163,15 @@ SizeReport size_panels(const SizeRequest& request) {
     const auto path = [&](const char* suffix) {
       return report.files.emplace_back(request.folder / (panel.name + suffix));
     };
-    write_whole_file(path(".obj"), obj_text(panel, *sized));
-    write_whole_file(path(".ply"), ply_text(*sized, scale));
+    write_obj(path(".obj"), panel, *sized);
+    write_ply(path(".ply"), *sized, scale);
     io::write_png(path("_map.png"), draw_size_map(panel, *sized, scale), small);
     io::write_png(path("_mesh.png"), draw_size_mesh(panel, *sized, scale), small);
   }
   if (sewn) {
     report.garment = {garment.vertices, 0, garment.joins};
     for (const auto& panel : garment.panels) report.garment->triangles += panel->mesh.triangles.size();
-    write_whole_file(report.files.emplace_back(request.folder / "garment.obj"),
-                     garment_text(file.garment, garment));
+    write_garment(report.files.emplace_back(request.folder / "garment.obj"), file.garment, garment);
   }
   return report;
 }

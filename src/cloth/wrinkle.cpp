@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/clock.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -27,12 +28,13 @@ Error bad(const fs::path& file, const std::string& what) {
 }
 
 // "young 1e7" among a PLY's comments.
-double value_in(const io::Ply& ply, const fs::path& file, const std::string& name) {
+double value_in(const io::Ply& ply, const std::string& name) {
   for (const std::string& comment : ply.comments) {
     if (!comment.starts_with(name + " ")) continue;
     if (const auto value = parse_number(comment.substr(name.size() + 1))) return *value;
   }
-  throw bad(file, fmt::format("has no comment '{} VALUE'; a base surface of 'plisse drape' is wanted", name));
+  throw bad(ply.file,
+            fmt::format("has no comment '{} VALUE'; a base surface of 'plisse drape' is wanted", name));
 }
 
 }  // namespace
@@ -47,48 +49,28 @@ wrinkle::Model model_of(const WrinkleRequest& request) {
 }
 
 WrinkleScene read_base(const fs::path& file) {
-  const io::Ply ply = io::read_ply(file);
-  const io::PlyElement *vertex = ply.find("vertex"), *face = ply.find("face");
-  if (!vertex || !face) throw bad(file, "a base surface needs the elements 'vertex' and 'face'");
+  const io::Ply ply = io::read_ply(file, {"x", "y", "z", "held", "vertex_indices", "vertex_index", "rest"});
   for (const std::string& comment : ply.comments)
     if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
-  const io::PlyProperty *corners = face->find("vertex_indices"), *flat = face->find("rest");
-  if (!corners || !corners->list || !flat || !flat->list)
-    throw bad(
-        file,
-        "has no lists 'vertex_indices' and 'rest' of its faces; a base surface of 'plisse drape' is wanted");
   WrinkleScene scene;
   scene.name = file.stem().string();
-  scene.material = {value_in(ply, file, "young"), value_in(ply, file, "poisson"),
-                    value_in(ply, file, "thickness"), 0};
+  std::vector<shell::Face> faces = ply.triangles(io::Ply::Polygons::refused);
+  scene.surface.positions = points_to_eigen(ply.vectors("vertex"));
+  if (!ply.element("face").find("rest"))
+    throw bad(file, "has no list 'rest' of its faces; a base surface of 'plisse drape' is wanted");
+  const std::vector<double>& flat = ply.lists("face", "rest", 6);
+  scene.material = {value_in(ply, "young"), value_in(ply, "poisson"), value_in(ply, "thickness"), 0};
   shell::check(scene.material);
-  std::vector<shell::Face> faces;
-  for (std::size_t f = 0; f < face->count; ++f) {
-    if (corners->ends[f] != 3 * (f + 1) || flat->ends[f] != 6 * (f + 1))
-      throw bad(file, fmt::format("face {}: three corners and six rest coordinates are wanted", f));
-    shell::Face corner{};
-    Eigen::Matrix<double, 2, 3> rest;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double index = corners->values[3 * f + c];
-      if (!(index >= 0 && index < static_cast<double>(vertex->count)))
-        throw bad(file, fmt::format("face {}: there is no vertex {}", f, index));
-      corner[c] = static_cast<std::uint32_t>(index);
-      rest.col(static_cast<Eigen::Index>(c)) << flat->values[6 * f + 2 * c], flat->values[6 * f + 2 * c + 1];
-    }
-    faces.push_back(corner);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Eigen::Matrix<double, 2, 3> rest = Eigen::Map<const Eigen::Matrix<double, 2, 3>>(&flat[6 * f]);
     scene.surface.rest.push_back(shell::rest_face(rest, f));
   }
-  scene.surface.topology = shell::build_topology(std::move(faces), vertex->count);
-  scene.surface.positions.resize(3, static_cast<Eigen::Index>(vertex->count));
-  const char* const axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& along = io::ply_values(*vertex, {axes[axis]}, file.string());
-    for (std::size_t v = 0; v < vertex->count; ++v)
-      scene.surface.positions(axis, static_cast<Eigen::Index>(v)) = along[v];
-  }
-  scene.held.assign(vertex->count, false);
-  if (const io::PlyProperty* held = vertex->find("held")) {
-    for (std::size_t v = 0; v < vertex->count; ++v) scene.held[v] = held->values[v] != 0;
+  const std::size_t count = ply.element("vertex").count;
+  scene.surface.topology = shell::build_topology(std::move(faces), count);
+  scene.held.assign(count, false);
+  if (ply.element("vertex").find("held")) {
+    const std::vector<double>& held = ply.numbers("vertex", {"held"});
+    for (std::size_t v = 0; v < count; ++v) scene.held[v] = held[v] != 0;
   }
   return scene;
 }

@@ -167,15 +167,13 @@ class PanelReader {
     }
   }
 
-  // What a file beside the panel file has; its name stands before what is wrong with it.
-  template <typename Parse>
-  std::vector<sizing::Polyline> curves_of(const std::string& file, const Parse& parse) const {
-    const fs::path name = folder_ / file;
-    const auto bytes = read_whole_file(name);
+  // The file's name stands before what is wrong with it.
+  static std::vector<sizing::Polyline> svg_curves(const fs::path& file, const std::string& id) {
+    const std::string document = read_whole_text(file);
     try {
-      return parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+      return sizing::parse_svg(document, id);
     } catch (const Error& error) {
-      throw Error(error.code, fmt::format("{}: {}", name.string(), error.what()));
+      throw Error(error.code, fmt::format("{}: {}", file.string(), error.what()));
     }
   }
 
@@ -202,12 +200,9 @@ class PanelReader {
           return std::nullopt;
         }
         const auto parse = [&] {
-          return svg.empty() ? curves_of(obj,
-                                         [&](auto text) {
-                                           auto lines = sizing::parse_obj_lines(text, id);
-                                           return holes ? sizing::outline_first(std::move(lines)) : lines;
-                                         })
-                             : curves_of(svg, [&](auto text) { return sizing::parse_svg(text, id); });
+          return !svg.empty() ? svg_curves(folder_ / svg, id)
+                 : holes      ? sizing::read_obj_outline(folder_ / obj, id)
+                              : sizing::read_obj_lines(folder_ / obj, id);
         };
         return path(reader, key, node, closed, parse, svg.empty() ? holes : nullptr);
       }
@@ -408,8 +403,7 @@ class PanelReader {
 }  // namespace
 
 PanelFile load_panels(const fs::path& file, const sizing::Fabric* fabric) {
-  const auto bytes = read_whole_file(file);
-  const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  const std::string text = read_whole_text(file);
   if (file.extension() != ".json") return parse_panels(text, file, fabric);
   if (!fabric)
     throw Error(
@@ -458,9 +452,7 @@ void keep_pieces(PanelFile& file, const std::vector<std::string>& names) {
 }
 
 bool is_panel_file(const fs::path& file) {
-  const auto bytes = read_whole_file(file);
-  const toml::table root =
-      config::parse_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  const toml::table root = config::parse_toml(read_whole_text(file), file);
   return root.contains("panel") && !root.contains("model") && !root.contains("drape");
 }
 

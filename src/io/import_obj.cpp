@@ -1,171 +1,22 @@
-// Wavefront OBJ and MTL (see import_obj.h).
+// A model of an OBJ file (obj.h) and its MTL files.
 #include "io/import_obj.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string_view>
 #include <tuple>
 
-#include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "io/import_colour.h"
 #include "io/import_place.h"
 #include "io/import_texture.h"
+#include "io/obj.h"
 
 namespace plisse::io {
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error(ExitCode::bad_input, fmt::format("{}: cannot be read", path.string()));
-  std::string result = std::move(text).str();
-  // A backslash at the end of a line continues it.
-  for (std::size_t i = result.find("\\\n"); i != std::string::npos; i = result.find("\\\n", i))
-    result.replace(i, 2, "  ");
-  return result;
-}
-
-// A line as words; never allocates.
-class Words {
- public:
-  explicit Words(std::string_view line) : rest_(line) {}
-
-  std::string_view next() {
-    skip_blanks();
-    const std::size_t end = std::min(rest_.find_first_of(" \t\r"), rest_.size());
-    const std::string_view word = rest_.substr(0, end);
-    rest_.remove_prefix(end);
-    return word;
-  }
-
-  std::string_view remainder() {
-    skip_blanks();
-    const std::size_t end = rest_.find_last_not_of(" \t\r");
-    return end == std::string_view::npos ? std::string_view{} : rest_.substr(0, end + 1);
-  }
-
- private:
-  void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r"), rest_.size())); }
-  std::string_view rest_;
-};
-
-template <typename Visit>
-void for_each_line(std::string_view text, const Visit& visit) {
-  for (std::size_t line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    visit(text.substr(0, end), line);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-}
-
-class ObjParser {
- public:
-  explicit ObjParser(const std::filesystem::path& path) { file_.path = path; }
-
-  ObjFile parse() {
-    const std::string text = read_text(file_.path);
-    for_each_line(text, [&](std::string_view line, std::size_t number) {
-      line_ = number;
-      parse_line(line);
-    });
-    return std::move(file_);
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ExitCode::bad_input, fmt::format("{}:{}: {}", file_.path.string(), line_, what));
-  }
-
-  void parse_line(std::string_view line) {
-    Words words(line);
-    const std::string_view key = words.next();
-    if (key == "v") {
-      const glm::dvec3 position{number(words), number(words), number(words)};
-      file_.positions.push_back(position);
-    } else if (key == "vt") {
-      const glm::dvec2 uv{number(words), number(words)};
-      file_.uvs.emplace_back(uv);
-    } else if (key == "vn") {
-      const glm::dvec3 normal{number(words), number(words), number(words)};
-      file_.normals.emplace_back(normal);
-    } else if (key == "f") {
-      parse_face(words);
-    } else if (key == "o" || key == "g") {
-      name_ = words.remainder();
-      start_run();
-    } else if (key == "usemtl") {
-      material_ = words.remainder();
-      start_run();
-    } else if (key == "mtllib") {
-      file_.libraries.emplace_back(words.remainder());
-    }
-  }
-
-  void start_run() {
-    if (!file_.runs.empty() && file_.runs.back().first_triangle == file_.triangles.size())
-      file_.runs.pop_back();
-    file_.runs.push_back({name_, material_, file_.triangles.size()});
-  }
-
-  double number(Words& words) const {
-    std::string_view word = words.next();
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    // Too small for a double is zero; too large is left to the check below.
-    if (word.empty() || error == std::errc::invalid_argument || end != word.data() + word.size())
-      fail(fmt::format("'{}' is not a number", word));
-    if (error == std::errc::result_out_of_range || !std::isfinite(value))
-      fail(fmt::format("'{}' is not a finite number", word));
-    return value;
-  }
-
-  std::int32_t index(std::string_view word, std::size_t count, const char* what) const {
-    if (word.empty()) return -1;
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size())
-      fail(fmt::format("'{}' is not an index", word));
-    const std::int64_t resolved = value < 0 ? value + static_cast<std::int64_t>(count) : value - 1;
-    if (resolved < 0 || resolved >= static_cast<std::int64_t>(count))
-      fail(fmt::format("{} {} does not exist: the file has {} so far", what, value, count));
-    return static_cast<std::int32_t>(resolved);
-  }
-
-  void parse_face(Words& words) {
-    polygon_.clear();
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      if (word.starts_with('#')) break;
-      std::array<std::string_view, 3> parts;
-      for (std::string_view& part : parts) {
-        const std::size_t slash = std::min(word.find('/'), word.size());
-        part = word.substr(0, slash);
-        word.remove_prefix(std::min(slash + 1, word.size()));
-      }
-      ObjFile::Corner corner{index(parts[0], file_.positions.size(), "vertex"),
-                             index(parts[1], file_.uvs.size(), "texture vertex"),
-                             index(parts[2], file_.normals.size(), "normal")};
-      if (corner.position < 0) fail("a corner of the face names no vertex");
-      polygon_.push_back(corner);
-    }
-    if (polygon_.size() < 3) fail(fmt::format("a face needs three corners, this has {}", polygon_.size()));
-    if (file_.runs.empty()) start_run();
-    for (std::size_t i = 1; i + 1 < polygon_.size(); ++i)
-      file_.triangles.push_back({polygon_[0], polygon_[i], polygon_[i + 1]});
-  }
-
-  ObjFile file_;
-  std::size_t line_ = 0;
-  std::string name_, material_;
-  std::vector<ObjFile::Corner> polygon_;
-};
 
 // Kd (sRGB, as modelling programs write it), d or Tr, map_Kd. A library that is missing costs colours, not
 // the model.
@@ -177,13 +28,13 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
     return;
   }
   Material* material = nullptr;
-  for_each_line(read_text(path), [&](std::string_view line, std::size_t) {
+  for_each_line(read_obj_text(path), [&](std::string_view line, std::size_t) {
     std::istringstream words{std::string(line)};
     std::string key;
     words >> key;
     float value = 1;
     if (key == "newmtl") {
-      const std::string name{Words(line.substr(line.find("newmtl") + 6)).remainder()};
+      const std::string name(trimmed(line.substr(line.find("newmtl") + 6)));
       ids.emplace(name, static_cast<int>(model.materials.size()));
       material = &model.materials.emplace_back();
       material->name = name;
@@ -199,7 +50,7 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
       material->alpha = material->base_colour.a < 1 ? Material::Alpha::blend : Material::Alpha::opaque;
     } else if (key == "map_Kd") {
       // Options stand before the name; names with blanks are taken when there are no options.
-      std::string name{Words(line.substr(line.find("map_Kd") + 6)).remainder()};
+      std::string name(trimmed(line.substr(line.find("map_Kd") + 6)));
       if (name.starts_with('-')) name = name.substr(name.find_last_of(" \t") + 1);
       material->base_colour_texture = load_texture_file(path, name, Texture::Use::colour, model);
       if (material->base_colour_texture >= 0) material->base_colour = {1, 1, 1, material->base_colour.a};
@@ -209,12 +60,8 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
 
 }  // namespace
 
-ObjFile read_obj_file(const std::filesystem::path& path) {
-  return ObjParser(path).parse();
-}
-
 Model import_obj(const std::filesystem::path& path, const ImportOptions& options) {
-  const ObjFile file = read_obj_file(path);
+  const ObjFile file = read_obj(path, {.uvs_and_normals = true});
   Model model;
   model.file_vertex_count = file.positions.size();
   model.path = file.path;

@@ -1,4 +1,4 @@
-// Wavefront OBJ (B1 appendix), PLY through ply.h, binary glTF 2.0 (Khronos, 2.0.1, "GLB File Format").
+// OBJ through obj.h, PLY through ply.h, binary glTF 2.0 (Khronos, 2.0.1, "GLB File Format").
 #include "io/mesh_file.h"
 
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "io/obj.h"
 #include "io/ply.h"
 
 namespace plisse::io {
@@ -42,63 +43,53 @@ bool any_uv(const MeshFile& mesh) {
   return std::any_of(mesh.parts.begin(), mesh.parts.end(), [](const auto& part) { return part.has_uv; });
 }
 
-// OBJ names end at white space.
-std::string one_word(std::string name, const char* otherwise) {
-  for (char& c : name)
-    if (c == ' ' || c == '\t' || c == '\n' || c == '\r') c = '_';
-  return name.empty() ? otherwise : name;
-}
-
-void write_obj(const std::filesystem::path& path, const MeshFile& mesh) {
-  std::string text = fmt::format("# plisse {}: metres, y up\n", version);
-  auto out = std::back_inserter(text);
-  for (const glm::dvec3& x : mesh.positions) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", x.x, x.y, x.z);
-  const bool uv = any_uv(mesh);
-  if (uv) {
-    for (const auto& vertex : mesh.vertices)
-      fmt::format_to(out, "vt {:.9g} {:.9g}\n", vertex.uv.x, vertex.uv.y);
-  }
-  for (const glm::dvec3& n : mesh.normals) fmt::format_to(out, "vn {:.7g} {:.7g} {:.7g}\n", n.x, n.y, n.z);
+void write_as_obj(const std::filesystem::path& path, const MeshFile& mesh) {
+  ObjWriter obj(fmt::format("plisse {}: metres, y up", version));
+  for (const glm::dvec3& x : mesh.positions) obj.position(x);
+  if (any_uv(mesh))
+    for (const auto& vertex : mesh.vertices) obj.uv(vertex.uv);
+  for (const glm::dvec3& n : mesh.normals) obj.normal(n);
   const std::string* named = nullptr;
   for (const auto& part : mesh.parts) {
     // Groups, not objects: programs that take objects apart would number the places of each from 1, and a
     // point cache would not fit.
-    if (!named || *named != part.mesh) fmt::format_to(out, "g {}\n", one_word(part.mesh, "mesh"));
+    if (!named || *named != part.mesh) obj.group(part.mesh.empty() ? "mesh" : part.mesh);
     named = &part.mesh;
-    fmt::format_to(out, "usemtl {}\n", one_word(part.material, "none"));
-    for (std::size_t i = 3 * std::size_t{part.first_triangle};
-         i < 3 * (std::size_t{part.first_triangle} + part.triangle_count); ++i) {
-      const auto& vertex = mesh.vertices[mesh.triangles[i]];
-      fmt::format_to(out, "{}{}/{}/{}", i % 3 == 0 ? "f " : " ", vertex.position + 1,
-                     part.has_uv ? fmt::to_string(mesh.triangles[i] + 1) : "", vertex.normal + 1);
-      if (i % 3 == 2) text += '\n';
+    obj.material(part.material.empty() ? "none" : part.material);
+    for (std::size_t t = part.first_triangle; t < std::size_t{part.first_triangle} + part.triangle_count;
+         ++t) {
+      const auto corner = [&](std::size_t c) {
+        const std::uint32_t id = mesh.triangles[3 * t + c];
+        return ObjFile::Corner{static_cast<std::int32_t>(mesh.vertices[id].position),
+                               part.has_uv ? static_cast<std::int32_t>(id) : -1,
+                               static_cast<std::int32_t>(mesh.vertices[id].normal)};
+      };
+      obj.face({corner(0), corner(1), corner(2)});
     }
   }
-  write_whole_file(path, text);
+  obj.write(path);
 }
 
 void write_as_ply(const std::filesystem::path& path, const MeshFile& mesh) {
   using Type = PlyProperty::Type;
-  PlyElement vertex{"vertex", mesh.vertices.size()};
-  const auto add = [&](const char* name, const auto& value) {
-    PlyProperty property{name, Type::float32};
-    property.values.reserve(mesh.vertices.size());
-    for (const auto& v : mesh.vertices) property.values.push_back(static_cast<double>(value(v)));
-    vertex.properties.push_back(std::move(property));
-  };
-  using Vertex = MeshFile::Vertex;
-  const char *const axes[] = {"x", "y", "z"}, *const normals[] = {"nx", "ny", "nz"};
-  for (int i = 0; i < 3; ++i) add(axes[i], [&](const Vertex& v) { return mesh.positions[v.position][i]; });
-  for (int i = 0; i < 3; ++i) add(normals[i], [&](const Vertex& v) { return mesh.normals[v.normal][i]; });
-  if (any_uv(mesh)) {
-    add("s", [](const Vertex& v) { return v.uv.x; });
-    add("t", [](const Vertex& v) { return v.uv.y; });
+  PlyElement vertex{"vertex", mesh.vertices.size()}, face{"face", mesh.triangles.size() / 3};
+  std::vector<glm::dvec3> positions, normals;
+  for (const auto& v : mesh.vertices) {
+    positions.push_back(mesh.positions[v.position]);
+    normals.push_back(mesh.normals[v.normal]);
   }
-  PlyElement face{"face", mesh.triangles.size() / 3};
-  PlyProperty indices{"vertex_indices", Type::uint32, true};
-  indices.values.assign(mesh.triangles.begin(), mesh.triangles.end());
-  for (std::size_t i = 3; i <= mesh.triangles.size(); i += 3) indices.ends.push_back(i);
-  face.properties.push_back(std::move(indices));
+  vertex.add_vectors("", Type::float32, positions);
+  vertex.add_vectors("n", Type::float32, normals);
+  if (any_uv(mesh)) {
+    PlyProperty s{"s", Type::float32}, t{"t", Type::float32};
+    for (const auto& v : mesh.vertices) {
+      s.values.push_back(v.uv.x);
+      t.values.push_back(v.uv.y);
+    }
+    vertex.properties.push_back(std::move(s));
+    vertex.properties.push_back(std::move(t));
+  }
+  face.add_lists("vertex_indices", Type::uint32, 3, {mesh.triangles.begin(), mesh.triangles.end()});
   write_ply(path, {{fmt::format("plisse {}: metres, y up", version)}, {std::move(vertex), std::move(face)}});
 }
 
@@ -217,7 +208,7 @@ void write_glb(const std::filesystem::path& path, const MeshFile& mesh) {
 void write_mesh(const std::filesystem::path& path, const MeshFile& mesh) {
   check_finite(path, mesh);
   const std::string ending = lower_case(path.extension().string());
-  if (ending == ".obj") return write_obj(path, mesh);
+  if (ending == ".obj") return write_as_obj(path, mesh);
   if (ending == ".ply") return write_as_ply(path, mesh);
   if (ending == ".glb") return write_glb(path, mesh);
   throw Error(ExitCode::bad_input,

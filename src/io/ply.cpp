@@ -4,158 +4,104 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
 
 namespace plisse::io {
 namespace {
 
 using Type = PlyProperty::Type;
 
-struct TypeInfo {
-  Type type;
-  std::string_view name, other_name;
-  std::size_t bytes;
-};
-constexpr std::array<TypeInfo, 8> types = {{{Type::int8, "char", "int8", 1},
-                                            {Type::uint8, "uchar", "uint8", 1},
-                                            {Type::int16, "short", "int16", 2},
-                                            {Type::uint16, "ushort", "uint16", 2},
-                                            {Type::int32, "int", "int32", 4},
-                                            {Type::uint32, "uint", "uint32", 4},
-                                            {Type::float32, "float", "float32", 4},
-                                            {Type::float64, "double", "float64", 8}}};
+// In the order of Type; either name may stand in a file, the first is written.
+constexpr std::array<std::array<std::string_view, 2>, 8> type_names = {{{"char", "int8"},
+                                                                        {"uchar", "uint8"},
+                                                                        {"short", "int16"},
+                                                                        {"ushort", "uint16"},
+                                                                        {"int", "int32"},
+                                                                        {"uint", "uint32"},
+                                                                        {"float", "float32"},
+                                                                        {"double", "float64"}}};
 
-const TypeInfo& info(Type type) {
-  return *std::find_if(types.begin(), types.end(), [&](const TypeInfo& t) { return t.type == type; });
-}
-
-template <typename Number>
-double number_at(const std::uint8_t* bytes, bool swapped) {
-  std::array<std::uint8_t, sizeof(Number)> raw;
-  std::memcpy(raw.data(), bytes, raw.size());
-  if (swapped) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<Number>(raw));
-}
-
-double decode(Type type, const std::uint8_t* bytes, bool swapped) {
+// Calls `function` with a number of the type.
+template <typename Function>
+auto with_number(Type type, Function&& function) {
   switch (type) {
     case Type::int8:
-      return number_at<std::int8_t>(bytes, swapped);
+      return function(std::int8_t{});
     case Type::uint8:
-      return number_at<std::uint8_t>(bytes, swapped);
+      return function(std::uint8_t{});
     case Type::int16:
-      return number_at<std::int16_t>(bytes, swapped);
+      return function(std::int16_t{});
     case Type::uint16:
-      return number_at<std::uint16_t>(bytes, swapped);
+      return function(std::uint16_t{});
     case Type::int32:
-      return number_at<std::int32_t>(bytes, swapped);
+      return function(std::int32_t{});
     case Type::uint32:
-      return number_at<std::uint32_t>(bytes, swapped);
+      return function(std::uint32_t{});
     case Type::float32:
-      return number_at<float>(bytes, swapped);
+      return function(float{});
     case Type::float64:
       break;
   }
-  return number_at<double>(bytes, swapped);
+  return function(double{});
 }
 
-template <typename Number>
-void append(std::vector<std::uint8_t>& out, double value) {
-  const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(Number)>>(static_cast<Number>(value));
-  out.insert(out.end(), raw.begin(), raw.end());
+std::size_t size_of(Type type) {
+  return with_number(type, [](auto number) { return sizeof number; });
 }
 
-void encode(std::vector<std::uint8_t>& out, Type type, double value) {
-  switch (type) {
-    case Type::int8:
-      return append<std::int8_t>(out, value);
-    case Type::uint8:
-      return append<std::uint8_t>(out, value);
-    case Type::int16:
-      return append<std::int16_t>(out, value);
-    case Type::uint16:
-      return append<std::uint16_t>(out, value);
-    case Type::int32:
-      return append<std::int32_t>(out, value);
-    case Type::uint32:
-      return append<std::uint32_t>(out, value);
-    case Type::float32:
-      return append<float>(out, value);
-    case Type::float64:
-      break;
-  }
-  append<double>(out, value);
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t begin = line.find_first_not_of(" \t\r", at);
-    if (begin == std::string_view::npos) break;
-    at = std::min(line.find_first_of(" \t\r", begin), line.size());
-    words.push_back(line.substr(begin, at - begin));
-  }
-  return words;
-}
-
-template <typename Number>
-bool parse(std::string_view text, Number& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [stop, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc{} && stop == text.data() + text.size();
+template <typename Item>
+const Item* find_named(const std::vector<Item>& items, std::string_view name) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& i) { return i.name == name; });
+  return found == items.end() ? nullptr : &*found;
 }
 
 class Reader {
  public:
-  Reader(std::span<const std::uint8_t> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+  Reader(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted)
+      : bytes_(bytes), wanted_(wanted) {
+    ply_.file = file;
+  }
 
   Ply read() {
     header();
-    for (PlyElement& element : ply_.elements) {
-      // Each item takes at least a byte a property (two as text, but for the last): no count can ask for more
-      // memory than a few times the file.
-      const std::size_t least = std::max<std::size_t>(element.properties.size(), 1);
-      if (element.count > (bytes_.size() - at_ + 1) / least) {
-        fail(fmt::format("the header promises {} of element '{}', the file is too short for that",
-                         element.count, element.name));
-      }
-      for (std::size_t i = 0; i < element.count; ++i) {
-        for (PlyProperty& property : element.properties) item(element, property, i);
-      }
-    }
+    for (std::size_t e = 0; e < ply_.elements.size(); ++e) read_items(ply_.elements[e], columns_[e]);
     return std::move(ply_);
   }
 
  private:
+  struct Column {
+    Type count;  // of a list
+    bool wanted;
+  };
+
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ExitCode::bad_input, fmt::format("{}: {}", name_, what));
+    throw Error(ExitCode::bad_input, fmt::format("{}: {}", ply_.file, what));
   }
   [[noreturn]] void fail_line(const std::string& what) const {
-    throw Error(ExitCode::bad_input, fmt::format("{}:{}: {}", name_, line_, what));
+    throw Error(ExitCode::bad_input, fmt::format("{}:{}: {}", ply_.file, line_, what));
   }
 
+  // --- header
   std::string_view next_line() {
-    if (at_ >= bytes_.size()) fail("the header does not end; 'end_header' is missing");
-    const auto* begin = bytes_.data() + at_;
-    const auto* end = std::find(begin, bytes_.data() + bytes_.size(), std::uint8_t{'\n'});
-    at_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
+    const std::size_t end = bytes_.find('\n', at_);
+    if (end == std::string_view::npos) fail("the header does not end; a line 'end_header' is missing");
+    const std::string_view line = bytes_.substr(at_, end - at_);
+    at_ = end + 1;
     ++line_;
-    std::string_view text(reinterpret_cast<const char*>(begin), static_cast<std::size_t>(end - begin));
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    return text;
+    return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
   }
 
   void header() {
-    if (bytes_.size() < 4 || words_of(next_line()) != std::vector<std::string_view>{"ply"})
+    if (!bytes_.starts_with("ply") || trimmed(next_line()) != "ply")
       fail("is no PLY file; its first line has to be 'ply'");
     bool has_format = false;
     while (true) {
@@ -171,85 +117,125 @@ class Reader {
         const bool big = words[1] == "binary_big_endian";
         swapped_ = big != (std::endian::native == std::endian::big);
         if (!ascii_ && !big && words[1] != "binary_little_endian")
-          fail_line("the format is none of PLY's three");
+          fail_line(fmt::format("format '{}' is none of ascii, binary_little_endian and binary_big_endian",
+                                words[1]));
+        if (words[2] != "1.0")
+          fail_line(fmt::format("version '{}' of the format is not known; 1.0 is the only one", words[2]));
       } else if (words[0] == "element" && words.size() == 3) {
-        PlyElement element;
+        PlyElement& element = ply_.elements.emplace_back();
+        columns_.emplace_back();
         element.name = words[1];
-        if (!parse(words[2], element.count)) fail_line(fmt::format("'{}' is no number of items", words[2]));
-        ply_.elements.push_back(std::move(element));
+        const char* const end = words[2].data() + words[2].size();
+        if (const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
+            error != std::errc{} || stop != end)
+          fail_line(fmt::format("element '{}': '{}' is no number of items", words[1], words[2]));
       } else if (words[0] == "property" && (words.size() == 3 || (words.size() == 5 && words[1] == "list"))) {
         if (ply_.elements.empty()) fail_line("a property stands before the first element");
-        PlyProperty property;
-        property.list = words.size() == 5;
-        property.name = words.back();
-        property.type = type_of(words[words.size() - 2]);
-        auto& element = ply_.elements.back();
-        length_types_.resize(ply_.elements.size());
-        length_types_.back().push_back(property.list ? type_of(words[2]) : Type::uint8);
-        element.properties.push_back(std::move(property));
+        const bool list = words.size() == 5;
+        const std::string_view name = words.back();
+        ply_.elements.back().properties.push_back(
+            {std::string(name), type_named(words[words.size() - 2]), list});
+        columns_.back().push_back(
+            {list ? type_named(words[2]) : Type::uint8,
+             wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end()});
       } else {
-        fail_line(fmt::format("'{}' is no line of a PLY header", line.substr(0, 60)));
+        fail_line(fmt::format("'{}' is no line of a PLY header", line.substr(0, 80)));
       }
     }
-    length_types_.resize(ply_.elements.size());
     if (!has_format) fail("the header has no 'format'");
   }
 
-  Type type_of(std::string_view word) const {
-    for (const TypeInfo& type : types) {
-      if (word == type.name || word == type.other_name) return type.type;
-    }
-    fail_line(fmt::format("'{}' is no type of PLY", word));
+  Type type_named(std::string_view word) const {
+    for (std::size_t t = 0; t < type_names.size(); ++t)
+      if (word == type_names[t][0] || word == type_names[t][1]) return static_cast<Type>(t);
+    fail_line(fmt::format("'{}' is no type of PLY, such as float or uchar", word));
   }
 
-  void item(const PlyElement& element, PlyProperty& property, std::size_t i) {
-    std::size_t length = 1;
-    if (property.list) {
-      const auto e = static_cast<std::size_t>(&element - ply_.elements.data());
-      const auto p = static_cast<std::size_t>(&property - element.properties.data());
-      const double given = value(element, property, i, length_types_[e][p]);
-      if (given < 0 || given != std::floor(given) || given > static_cast<double>(bytes_.size()))
-        fail(fmt::format("{} {}: {} is no length of the list '{}'", element.name, i, given, property.name));
-      length = static_cast<std::size_t>(given);
+  // --- items
+  void read_items(PlyElement& element, const std::vector<Column>& columns) {
+    if (element.properties.empty()) return;  // nothing stands in the file for its items
+    // A count that the rest of the file cannot hold is damage, and allocates nothing. In text a number takes
+    // a digit and a blank, which the last one needs not.
+    std::size_t least = 0;
+    for (std::size_t p = 0; p < columns.size(); ++p)
+      least +=
+          ascii_ ? 2 : size_of(element.properties[p].list ? columns[p].count : element.properties[p].type);
+    if (element.count > (bytes_.size() - at_ + 1) / least)
+      fail(fmt::format("the header promises {} of element '{}', the file is too short for that",
+                       element.count, element.name));
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+      auto& [name, type, list, values, ends] = element.properties[p];
+      if (columns[p].wanted) (list ? ends.reserve(element.count) : values.reserve(element.count));
     }
-    for (std::size_t k = 0; k < length; ++k)
-      property.values.push_back(value(element, property, i, property.type));
-    if (property.list) property.ends.push_back(property.values.size());
+    for (std::size_t i = 0; i < element.count; ++i)
+      for (std::size_t p = 0; p < columns.size(); ++p)
+        read_item(element, element.properties[p], i, columns[p]);
+    for (std::size_t p = columns.size(); p-- > 0;)
+      if (!columns[p].wanted)
+        element.properties.erase(element.properties.begin() + static_cast<std::ptrdiff_t>(p));
   }
 
-  double value(const PlyElement& element, const PlyProperty& property, std::size_t i, Type type) {
+  void read_item(const PlyElement& element, PlyProperty& property, std::size_t i, const Column& column) {
     const auto where = [&] { return fmt::format("{} {}, '{}'", element.name, i, property.name); };
-    double result = 0;
-    if (ascii_) {
-      const auto is_space = [](std::uint8_t c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-      while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
-      const std::size_t begin = at_;
-      while (at_ < bytes_.size() && !is_space(bytes_[at_])) ++at_;
-      const std::string_view word(reinterpret_cast<const char*>(bytes_.data()) + begin, at_ - begin);
-      if (word.empty()) fail(fmt::format("{}: the file ends before this value", where()));
-      if (!parse(word, result)) fail(fmt::format("{}: '{}' is no number", where(), word.substr(0, 40)));
-    } else {
-      const std::size_t size = info(type).bytes;
-      if (size > bytes_.size() - at_) fail(fmt::format("{}: the file ends before this value", where()));
-      result = decode(type, bytes_.data() + at_, swapped_);
-      at_ += size;
+    double length = 1;
+    if (property.list) {
+      length = number(column.count, where);
+      if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>(bytes_.size() - at_))
+        fail(fmt::format("{}: {} is no length of a list here", where(), length));
     }
-    if (!std::isfinite(result)) fail(fmt::format("{}: the value is not finite", where()));
-    return result;
+    for (double k = 0; k < length; ++k) {
+      const double value = number(property.type, where);
+      if (!column.wanted) continue;
+      if (!std::isfinite(value)) fail(fmt::format("{}: the value is not finite", where()));
+      property.values.push_back(value);
+    }
+    if (property.list && column.wanted) property.ends.push_back(property.values.size());
   }
 
-  std::span<const std::uint8_t> bytes_;
-  std::string name_;
+  template <typename Where>
+  double number(Type type, const Where& where) {
+    if (ascii_) {
+      constexpr std::string_view blanks = " \t\r\n";
+      const std::size_t begin = std::min(bytes_.find_first_not_of(blanks, at_), bytes_.size());
+      at_ = std::min(bytes_.find_first_of(blanks, begin), bytes_.size());
+      const std::string_view word = bytes_.substr(begin, at_ - begin);
+      if (word.empty()) fail(fmt::format("{}: the file ends before this value", where()));
+      const auto value = parse_number(word);
+      if (!value) fail(fmt::format("{}: '{}' is no number", where(), word.substr(0, 40)));
+      return *value;
+    }
+    if (size_of(type) > bytes_.size() - at_)
+      fail(fmt::format("{}: the file ends before this value", where()));
+    return with_number(type, [&](auto value) {
+      std::array<char, sizeof value> raw;
+      std::memcpy(raw.data(), bytes_.data() + at_, raw.size());
+      if (swapped_) std::reverse(raw.begin(), raw.end());
+      at_ += raw.size();
+      return static_cast<double>(std::bit_cast<decltype(value)>(raw));
+    });
+  }
+
+  std::string_view bytes_;
+  const std::vector<std::string_view>& wanted_;
   std::size_t at_ = 0, line_ = 0;
   bool ascii_ = true, swapped_ = false;
   Ply ply_;
-  std::vector<std::vector<Type>> length_types_;  // per element and property
+  std::vector<std::vector<Column>> columns_;  // of each element, as its properties
 };
 
-template <typename Item>
-const Item* find_named(const std::vector<Item>& items, std::string_view name) {
-  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& i) { return i.name == name; });
-  return found == items.end() ? nullptr : &*found;
+// The values of one item, in either format.
+void append(std::string& bytes, Type type, double value, PlyFormat format) {
+  with_number(type, [&](auto number) {
+    using Number = decltype(number);
+    if (format == PlyFormat::binary) {
+      const auto raw = std::bit_cast<std::array<char, sizeof number>>(static_cast<Number>(value));
+      bytes.append(raw.data(), raw.size());
+    } else if constexpr (std::is_integral_v<Number>) {
+      fmt::format_to(std::back_inserter(bytes), "{} ", static_cast<std::int64_t>(value));
+    } else {
+      fmt::format_to(std::back_inserter(bytes), "{:.{}g} ", value, sizeof number == 4 ? 6 : 9);
+    }
+  });
 }
 
 }  // namespace
@@ -258,36 +244,121 @@ const PlyProperty* PlyElement::find(std::string_view property) const {
   return find_named(properties, property);
 }
 
+const PlyProperty* PlyElement::find(std::initializer_list<std::string_view> names) const {
+  for (const std::string_view one : names)
+    if (const PlyProperty* property = find(one)) return property;
+  return nullptr;
+}
+
+void PlyElement::add_vectors(const std::string& prefix, Type type, const std::vector<glm::dvec3>& vectors) {
+  for (int axis = 0; axis < 3; ++axis) {
+    PlyProperty& property = properties.emplace_back(PlyProperty{prefix + "xyz"[axis], type});
+    property.values.reserve(vectors.size());
+    for (const glm::dvec3& v : vectors) property.values.push_back(v[axis]);
+  }
+}
+
+void PlyElement::add_lists(const std::string& property, Type type, std::size_t length,
+                           std::vector<double> values) {
+  PlyProperty& lists = properties.emplace_back(PlyProperty{property, type, true, std::move(values)});
+  for (std::size_t i = 1; i <= lists.values.size() / length; ++i) lists.ends.push_back(i * length);
+}
+
 const PlyElement* Ply::find(std::string_view element) const {
   return find_named(elements, element);
 }
 
-Ply parse_ply(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return Reader(bytes, name).read();
+const PlyElement& Ply::element(std::string_view name) const {
+  if (const PlyElement* found = find(name)) return *found;
+  throw Error(ExitCode::bad_input, fmt::format("{}: has no element '{}'", file, name));
 }
 
-Ply read_ply(const std::filesystem::path& path) {
-  return parse_ply(read_whole_file(path), path.string());
+const std::vector<double>& Ply::numbers(std::string_view name,
+                                        std::initializer_list<std::string_view> names) const {
+  const PlyProperty* property = element(name).find(names);
+  if (property && !property->list) return property->values;
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: element '{}' has no property '{}'", file, name, fmt::join(names, "' or '")));
 }
 
-void write_ply(const std::filesystem::path& path, const Ply& ply) {
-  static_assert(std::endian::native == std::endian::little, "write_ply copies numbers as they lie in memory");
-  std::string header = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : ply.comments) header += fmt::format("comment {}\n", comment);
+std::vector<glm::dvec3> Ply::vectors(std::string_view name, const std::string& prefix) const {
+  const auto &x = numbers(name, {prefix + "x"}), &y = numbers(name, {prefix + "y"}),
+             &z = numbers(name, {prefix + "z"});
+  std::vector<glm::dvec3> result;
+  result.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) result.emplace_back(x[i], y[i], z[i]);
+  return result;
+}
+
+const std::vector<double>& Ply::lists(std::string_view name, std::string_view property,
+                                      std::size_t length) const {
+  const PlyProperty* found = element(name).find(property);
+  if (!found || !found->list)
+    throw Error(ExitCode::bad_input, fmt::format("{}: element '{}' has no list '{}'", file, name, property));
+  for (std::size_t i = 0; i < found->ends.size(); ++i)
+    if (found->ends[i] != length * (i + 1))
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: {} {}: '{}' has to have {} values", file, name, i, property, length));
+  return found->values;
+}
+
+std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) const {
+  const auto bad = [&](const std::string& what) {
+    return Error(ExitCode::bad_input, fmt::format("{}: {}", file, what));
+  };
+  if (!find("face"))
+    throw bad(find("tristrips") ? "it holds triangle strips; export its faces as polygons"
+                                : "has no element 'face': a cloud of points has no surface to wrinkle");
+  const PlyProperty* corners = element("face").find({"vertex_indices", "vertex_index"});
+  if (!corners || !corners->list) throw bad("element 'face' has no list 'vertex_indices'");
+  const auto count = static_cast<double>(element("vertex").count);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(corners->ends.size());
+  for (std::size_t f = 0, begin = 0; f < corners->ends.size(); begin = corners->ends[f++]) {
+    const std::size_t end = corners->ends[f];
+    if (end - begin < 3 || (end - begin > 3 && polygons == Polygons::refused))
+      throw bad(fmt::format("face {}: {} corners; a face {} three corners", f, end - begin,
+                            polygons == Polygons::refused ? "of this kind of file has" : "needs"));
+    const auto id = [&](std::size_t at) {
+      const double corner = corners->values[at];
+      if (!(corner >= 0 && corner < count) || corner != std::floor(corner))
+        throw bad(
+            fmt::format("face {}: there is no vertex {}; the file has {}, counted from 0", f, corner, count));
+      return static_cast<std::uint32_t>(corner);
+    };
+    for (std::size_t i = begin + 1; i + 1 < end; ++i) triangles.push_back({id(begin), id(i), id(i + 1)});
+  }
+  return triangles;
+}
+
+Ply parse_ply(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted) {
+  return Reader(bytes, file, wanted).read();
+}
+
+Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted) {
+  return parse_ply(read_whole_text(path), path.string(), wanted);
+}
+
+void write_ply(const std::filesystem::path& path, const Ply& ply, PlyFormat format) {
+  static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
+  const auto fail = [&](const std::string& what) {
+    throw Error(ExitCode::no_output, fmt::format("{}: {}", path.string(), what));
+  };
+  std::string bytes =
+      fmt::format("ply\nformat {} 1.0\n", format == PlyFormat::ascii ? "ascii" : "binary_little_endian");
+  for (const std::string& comment : ply.comments) bytes += fmt::format("comment {}\n", comment);
   for (const PlyElement& element : ply.elements) {
-    header += fmt::format("element {} {}\n", element.name, element.count);
+    bytes += fmt::format("element {} {}\n", element.name, element.count);
     for (const PlyProperty& property : element.properties) {
       const std::size_t held = property.list ? property.ends.size() : property.values.size();
-      if (held != element.count) {
-        throw Error(ExitCode::no_output, fmt::format("{}: '{}' has {} items, element '{}' {}", path.string(),
-                                                     property.name, held, element.name, element.count));
-      }
-      header += fmt::format("property {}{} {}\n", property.list ? "list uchar " : "",
-                            info(property.type).name, property.name);
+      if (held != element.count)
+        fail(fmt::format("'{}' has {} items, element '{}' {}", property.name, held, element.name,
+                         element.count));
+      bytes += fmt::format("property {}{} {}\n", property.list ? "list uchar " : "",
+                           type_names[static_cast<std::size_t>(property.type)][0], property.name);
     }
   }
-  header += "end_header\n";
-  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  bytes += "end_header\n";
   for (const PlyElement& element : ply.elements) {
     for (std::size_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
@@ -295,34 +366,19 @@ void write_ply(const std::filesystem::path& path, const Ply& ply) {
         if (property.list) {
           first = i > 0 ? property.ends[i - 1] : 0;
           last = property.ends[i];
-          if (last - first > 255) {
-            throw Error(ExitCode::no_output,
-                        fmt::format("{}: a list of {} values is too long", path.string(), last - first));
-          }
-          bytes.push_back(static_cast<std::uint8_t>(last - first));
+          if (last - first > 255) fail(fmt::format("a list of {} values is too long", last - first));
+          append(bytes, Type::uint8, static_cast<double>(last - first), format);
         }
         for (std::size_t k = first; k < last; ++k) {
-          if (!std::isfinite(property.values[k])) {
-            throw Error(ExitCode::no_output, fmt::format("{}: '{}' of {} {} is not finite", path.string(),
-                                                         property.name, element.name, i));
-          }
-          encode(bytes, property.type, property.values[k]);
+          if (!std::isfinite(property.values[k]))
+            fail(fmt::format("'{}' of {} {} is not finite", property.name, element.name, i));
+          append(bytes, property.type, property.values[k], format);
         }
       }
+      if (format == PlyFormat::ascii) bytes.back() = '\n';
     }
   }
   write_whole_file(path, bytes);
-}
-
-const std::vector<double>& ply_values(const PlyElement& element,
-                                      std::initializer_list<std::string_view> names,
-                                      const std::string& file) {
-  for (const std::string_view name : names) {
-    const PlyProperty* property = element.find(name);
-    if (property && !property->list) return property->values;
-  }
-  throw Error(ExitCode::bad_input, fmt::format("{}: element '{}' has no property '{}'", file, element.name,
-                                               fmt::join(names, "' or '")));
 }
 
 }  // namespace plisse::io

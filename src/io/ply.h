@@ -1,11 +1,12 @@
-// PLY files as tables: elements (vertex, face, …) with named properties, numbers or lists of numbers. What
-// carries painted wrinkles and wrinkle fields from one program to the next (G. Turk, The PLY Polygon File
-// Format, 1994).
+// PLY files as tables: elements (vertex, face, …) with named properties, numbers or lists of numbers (G.
+// Turk, The PLY Polygon File Format, 1994). The one reader and the one writer: models, sequences, painted
+// wrinkles, wrinkle fields, base surfaces and sized panels all go through them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,28 +27,51 @@ struct PlyElement {
   std::size_t count = 0;
   std::vector<PlyProperty> properties = {};
 
-  const PlyProperty* find(std::string_view property) const;  // nullptr where there is none
+  // The property of this name, or of the first of these names that there is; nullptr where there is none.
+  const PlyProperty* find(std::string_view property) const;
+  const PlyProperty* find(std::initializer_list<std::string_view> names) const;
+
+  // For a file to be written: PREFIXx, PREFIXy and PREFIXz of `count` vectors; a list of `length` values an
+  // item.
+  void add_vectors(const std::string& prefix, PlyProperty::Type type, const std::vector<glm::dvec3>& vectors);
+  void add_lists(const std::string& property, PlyProperty::Type type, std::size_t length,
+                 std::vector<double> values);
 };
 
 struct Ply {
   std::vector<std::string> comments = {};
   std::vector<PlyElement> elements = {};
+  std::string file = {};  // where it was read from, for messages
 
   const PlyElement* find(std::string_view element) const;
+
+  // What the file must have. All throw Error(bad_input), naming the file, where it is not there.
+  const PlyElement& element(std::string_view name) const;
+  // The values of a number property, by the first of these names that there is.
+  const std::vector<double>& numbers(std::string_view element,
+                                     std::initializer_list<std::string_view> names) const;
+  // PREFIXx, PREFIXy and PREFIXz of each item.
+  std::vector<glm::dvec3> vectors(std::string_view element, const std::string& prefix = "") const;
+  // A list property that has `length` values for every item.
+  const std::vector<double>& lists(std::string_view element, std::string_view name, std::size_t length) const;
+  // The corners of the faces, numbers of vertices from 0. Polygons become fans from their first corner, or
+  // are refused as well.
+  enum class Polygons { split, refused };
+  std::vector<std::array<std::uint32_t, 3>> triangles(Polygons polygons) const;
 };
 
-// ASCII or binary of either byte order. Throws Error(bad_input): no PLY, a header that makes no sense or
-// promises more than the file holds, a text that is no number, a value that is not finite; with file and
-// line, or element and item.
-Ply read_ply(const std::filesystem::path& path);
-Ply parse_ply(std::span<const std::uint8_t> bytes, const std::string& name);
+// ASCII or binary of either byte order, version 1.0. Of properties of other names than `wanted`, the values
+// are passed over, whatever they are; all are wanted where that is empty. Lists may be counted in any type,
+// as long as the counts are whole numbers. Throws Error(bad_input): no PLY, a header that makes no sense or
+// promises more than the file holds, a text that is no number, a wanted value that is not finite; with file
+// and line, or element and item.
+Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted = {});
+Ply parse_ply(std::string_view bytes, const std::string& file,
+              const std::vector<std::string_view>& wanted = {});
 
-// Binary little-endian, whole or not at all. Throws Error(no_output).
-void write_ply(const std::filesystem::path& path, const Ply& ply);
-
-// The values of a number property of an element, by the first of these names that it has. Throws
-// Error(bad_input) naming `file`, where there is none of them.
-const std::vector<double>& ply_values(const PlyElement& element,
-                                      std::initializer_list<std::string_view> names, const std::string& file);
+// Binary little-endian, or text with nine digits of a double and six of a float. Whole or not at all. Throws
+// Error(no_output).
+enum class PlyFormat { binary, ascii };
+void write_ply(const std::filesystem::path& path, const Ply& ply, PlyFormat format = PlyFormat::binary);
 
 }  // namespace plisse::io

@@ -16,9 +16,10 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "io/import_obj.h"
+#include "base/text.h"
 #include "io/import_place.h"
-#include "io/import_ply.h"
+#include "io/obj.h"
+#include "io/ply.h"
 #include "io/read_model.h"
 
 namespace plisse::io {
@@ -80,21 +81,15 @@ std::optional<std::uint64_t> number_in(const std::string& name, const Pattern& p
   return std::stoull(digits);
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_ply(const fs::path& path) {
-  return lower(path.extension().string()) == ".ply";
+  return lower_case(path.extension().string()) == ".ply";
 }
 
 // The one sequence of OBJ or PLY files that a folder holds.
 Pattern pattern_of_folder(const fs::path& folder) {
   std::set<Pattern> patterns;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (lower(entry.path().extension().string()) != ".obj" && !is_ply(entry.path())) continue;
+    if (lower_case(entry.path().extension().string()) != ".obj" && !is_ply(entry.path())) continue;
     const std::string stem = entry.path().stem().string();
     const std::size_t digits = stem.size() - std::min(stem.find_last_not_of("0123456789") + 1, stem.size());
     if (digits == 0) continue;
@@ -130,21 +125,20 @@ struct FileMesh {
 
 FileMesh read_mesh(const fs::path& path) {
   FileMesh mesh;
-  Hash hash;
-  const auto take = [&](const auto& triangles, const auto& vertex_of) {
-    mesh.triangles = triangles.size();
-    for (const auto& triangle : triangles)
-      for (const auto& corner : triangle) hash.add(vertex_of(corner));
-  };
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   if (is_ply(path)) {
-    PlyFile file = read_ply_file(path);
-    take(file.triangles, [](std::uint32_t corner) { return corner; });
-    mesh.positions = std::move(file.positions);
+    const Ply file = read_ply(path, {"x", "y", "z", "vertex_indices", "vertex_index"});
+    triangles = file.triangles(Ply::Polygons::split);
+    mesh.positions = file.vectors("vertex");
   } else {
-    ObjFile file = read_obj_file(path);
-    take(file.triangles, [](const ObjFile::Corner& corner) { return corner.position; });
+    ObjFile file = read_obj(path);
+    triangles = file.faces();
     mesh.positions = std::move(file.positions);
   }
+  mesh.triangles = triangles.size();
+  Hash hash;
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t corner : triangle) hash.add(corner);
   mesh.faces = hash.hex();
   return mesh;
 }

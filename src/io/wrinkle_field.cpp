@@ -12,7 +12,9 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
+#include "io/obj.h"
 #include "io/ply.h"
 
 namespace plisse::io {
@@ -23,66 +25,6 @@ constexpr double turn = 2 * std::numbers::pi;
 
 Error bad(const std::string& file, const std::string& what) {
   return {ExitCode::bad_input, fmt::format("{}: {}", file, what)};
-}
-
-// Calls `line(number, text)` for every line.
-template <typename Function>
-void for_lines(const fs::path& path, Function&& line) {
-  const auto bytes = read_whole_file(path);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    line(++number, text.substr(at, end - at));
-    at = end + 1;
-  }
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = line.find_first_not_of(" \t\r"); at < line.size();) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(" \t\r", end);
-  }
-  return words;
-}
-
-double number_of(std::string_view word, const fs::path& path, std::size_t line) {
-  const auto value = parse_number(word);
-  if (!value || !std::isfinite(*value))
-    throw bad(fmt::format("{}:{}", path.string(), line),
-              fmt::format("'{}' is no finite number", word.substr(0, 40)));
-  return *value;
-}
-
-// Only v and f lines: the vertices in the file's own order, which is what text files count.
-void read_obj(const fs::path& path, WrinkleField& field) {
-  for_lines(path, [&](std::size_t line, std::string_view text) {
-    const auto words = words_of(text);
-    const std::string where = fmt::format("{}:{}", path.string(), line);
-    if (words.empty()) return;
-    if (words[0] == "v") {
-      if (words.size() < 4) throw bad(where, "a vertex needs three numbers");
-      field.positions.emplace_back(number_of(words[1], path, line), number_of(words[2], path, line),
-                                   number_of(words[3], path, line));
-    } else if (words[0] == "f") {
-      if (words.size() != 4) throw bad(where, "a face of a wrinkle field's base surface has three corners");
-      std::array<std::uint32_t, 3> triangle{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double index = number_of(words[c + 1].substr(0, words[c + 1].find('/')), path, line);
-        const double count = static_cast<double>(field.positions.size());
-        const double zero_based = index < 0 ? count + index : index - 1;
-        if (!(zero_based >= 0 && zero_based < count))
-          throw bad(where, fmt::format("there is no vertex {}", index));
-        triangle[c] = static_cast<std::uint32_t>(zero_based);
-      }
-      field.triangles.push_back(triangle);
-    }
-  });
-  if (field.positions.empty() || field.triangles.empty())
-    throw bad(path.string(),
-              "has no triangles; a wrinkle field's text files need the OBJ of their base surface");
 }
 
 // "disk_amplitude_simulated.txt" → "disk_phi_simulated.txt".
@@ -119,9 +61,15 @@ std::map<Edge, std::size_t> edges_of(const WrinkleField& field) {
 }
 
 WrinkleField read_text(const fs::path& path, const fs::path& mesh) {
-  WrinkleField field;
   const fs::path phi_file = existing_sibling(path, "phi"), dphi_file = existing_sibling(path, "dphi");
-  read_obj(mesh, field);
+  // The vertices in the file's own order, which is what text files count.
+  ObjFile obj = read_obj(mesh, {.polygons = false});
+  if (obj.triangles.empty())
+    throw bad(mesh.string(),
+              "has no triangles; a wrinkle field's text files need the OBJ of their base surface");
+  WrinkleField field;
+  field.positions = std::move(obj.positions);
+  field.triangles = obj.faces();
   const auto edges = edges_of(field);
   field.amplitude = read_numbers(path, field.positions.size(), "vertices");
   const auto phi = read_numbers(phi_file, field.positions.size(), "vertices");
@@ -138,44 +86,15 @@ WrinkleField read_text(const fs::path& path, const fs::path& mesh) {
   return field;
 }
 
-// The three values an item of a list property.
-std::vector<std::array<double, 3>> threes(const PlyElement& face,
-                                          std::initializer_list<std::string_view> names,
-                                          const std::string& file) {
-  for (const std::string_view name : names) {
-    const PlyProperty* property = face.find(name);
-    if (!property || !property->list) continue;
-    std::vector<std::array<double, 3>> result;
-    for (std::size_t i = 0; i < face.count; ++i) {
-      if (property->ends[i] != 3 * (i + 1))
-        throw bad(file, fmt::format("face {}: '{}' has to have three values", i, name));
-      result.push_back({property->values[3 * i], property->values[3 * i + 1], property->values[3 * i + 2]});
-    }
-    return result;
-  }
-  throw bad(file, fmt::format("element 'face' has no list '{}'", *names.begin()));
-}
-
 WrinkleField read_ply_field(const fs::path& path) {
-  const std::string file = path.string();
-  const Ply ply = read_ply(path);
-  const PlyElement *vertex = ply.find("vertex"), *face = ply.find("face");
-  if (!vertex || !face) throw bad(file, "a wrinkle field needs the elements 'vertex' and 'face'");
+  const Ply ply = read_ply(path, {"x", "y", "z", "amplitude", "vertex_indices", "vertex_index", "phase"});
   WrinkleField field;
-  const auto &x = ply_values(*vertex, {"x"}, file), &y = ply_values(*vertex, {"y"}, file),
-             &z = ply_values(*vertex, {"z"}, file);
-  for (std::size_t v = 0; v < vertex->count; ++v) field.positions.emplace_back(x[v], y[v], z[v]);
-  field.amplitude = ply_values(*vertex, {"amplitude"}, file);
-  field.phase = threes(*face, {"phase"}, file);
-  for (const auto& given : threes(*face, {"vertex_indices", "vertex_index"}, file)) {
-    std::array<std::uint32_t, 3> triangle{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!(given[c] >= 0 && given[c] < static_cast<double>(vertex->count)))
-        throw bad(file, fmt::format("face {}: there is no vertex {}", field.triangles.size(), given[c]));
-      triangle[c] = static_cast<std::uint32_t>(given[c]);
-    }
-    field.triangles.push_back(triangle);
-  }
+  field.positions = ply.vectors("vertex");
+  field.amplitude = ply.numbers("vertex", {"amplitude"});
+  field.triangles = ply.triangles(Ply::Polygons::refused);
+  const std::vector<double>& phase = ply.lists("face", "phase", 3);
+  for (std::size_t i = 0; i < phase.size(); i += 3)
+    field.phase.push_back({phase[i], phase[i + 1], phase[i + 2]});
   return field;
 }
 
@@ -209,12 +128,15 @@ void validate(const WrinkleField& field, const std::string& file) {
 
 std::vector<double> read_numbers(const fs::path& path, std::size_t wanted, std::string_view of_what) {
   std::vector<double> values;
-  for_lines(path, [&](std::size_t line, std::string_view text) {
-    const auto words = words_of(text);
+  for_each_line(read_whole_text(path), [&](std::string_view line, std::size_t number) {
+    const auto words = words_of(line);
     if (words.empty()) return;
-    if (words.size() > 1)
-      throw bad(fmt::format("{}:{}", path.string(), line), "more than one number in a line");
-    values.push_back(number_of(words[0], path, line));
+    const std::string where = fmt::format("{}:{}", path.string(), number);
+    if (words.size() > 1) throw bad(where, "more than one number in a line");
+    const auto value = parse_number(words[0]);
+    if (!value || !std::isfinite(*value))
+      throw bad(where, fmt::format("'{}' is no finite number", words[0].substr(0, 40)));
+    values.push_back(*value);
   });
   if (values.size() != wanted) {
     throw bad(path.string(),
@@ -247,27 +169,22 @@ void write_wrinkle_field(const fs::path& path, const WrinkleField& field,
                          const std::vector<std::string>& comments) {
   using Type = PlyProperty::Type;
   PlyElement vertex{"vertex", field.positions.size()}, face{"face", field.triangles.size()};
-  for (int i = 0; i < 3; ++i) {
-    PlyProperty axis{std::string(1, "xyz"[i]), Type::float64};
-    for (const glm::dvec3& x : field.positions) axis.values.push_back(x[i]);
-    vertex.properties.push_back(std::move(axis));
-  }
+  vertex.add_vectors("", Type::float64, field.positions);
   vertex.properties.push_back({"amplitude", Type::float64, false, field.amplitude});
-  PlyProperty indices{"vertex_indices", Type::uint32, true}, phase{"phase", Type::float64, true};
+  std::vector<double> corners, phases;
   auto edges = edges_of(field);
   std::vector<double> omega(edges.size(), 0.0);
   for (std::size_t t = 0; t < field.triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t a = field.triangles[t][c], b = field.triangles[t][(c + 1) % 3];
-      indices.values.push_back(a);
-      phase.values.push_back(field.phase[t][c]);
+      corners.push_back(a);
+      phases.push_back(field.phase[t][c]);
       const double difference = field.phase[t][(c + 1) % 3] - field.phase[t][c];
       omega[edges.at(std::minmax(a, b))] = a < b ? difference : -difference;
     }
-    indices.ends.push_back(3 * (t + 1));
-    phase.ends.push_back(3 * (t + 1));
   }
-  face.properties = {std::move(indices), std::move(phase)};
+  face.add_lists("vertex_indices", Type::uint32, 3, std::move(corners));
+  face.add_lists("phase", Type::float64, 3, std::move(phases));
   PlyElement edge{"edge", edges.size()};
   PlyProperty first{"vertex1", Type::uint32}, second{"vertex2", Type::uint32};
   for (const auto& [ends, number] : edges) {

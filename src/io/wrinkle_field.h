@@ -4,7 +4,7 @@
 //  - a PLY of our own: `vertex` with x, y, z and amplitude; `face` with the lists vertex_indices and phase
 //  (one value a
 //    corner, radians; corners of one vertex differ by multiples of 2π); `edge` with vertex1, vertex2 and
-//    omega is carried along and checked, if it is there;
+//    omega is written for other programs, and passed over where it is read;
 //  - the authors' text files: NAME_amplitude_REST.txt with NAME_phi_REST.txt and NAME_dphi_REST.txt beside
 //  it, one number
 //    a line, over an OBJ of the base surface. Amplitudes and phases are a vertex each; dphi is an edge each,

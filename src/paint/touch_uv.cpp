@@ -79,25 +79,19 @@ std::vector<Touch> touched_by_image(const Canvas& canvas, const config::PaintStr
 }
 
 std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintStroke& stroke) {
-  const std::string file = stroke.file.string();
-  const io::Ply ply = io::read_ply(stroke.file);
-  const io::PlyElement* vertex = ply.find("vertex");
-  if (!vertex) fail(stroke, fmt::format("{} has no element 'vertex'", file));
-  const auto& x = io::ply_values(*vertex, {"x"}, file);
-  const auto& y = io::ply_values(*vertex, {"y"}, file);
-  const auto& z = io::ply_values(*vertex, {"z"}, file);
-  const auto& red = io::ply_values(*vertex, {"red", "r", "diffuse_red"}, file);
-  const auto& green = io::ply_values(*vertex, {"green", "g", "diffuse_green"}, file);
-  const auto& blue = io::ply_values(*vertex, {"blue", "b", "diffuse_blue"}, file);
+  const io::Ply ply = io::read_ply(stroke.file, {"x", "y", "z", "red", "r", "diffuse_red", "green", "g",
+                                                 "diffuse_green", "blue", "b", "diffuse_blue"});
+  std::vector<glm::dvec3> places = ply.vectors("vertex");
+  const auto& red = ply.numbers("vertex", {"red", "r", "diffuse_red"});
+  const auto& green = ply.numbers("vertex", {"green", "g", "diffuse_green"});
+  const auto& blue = ply.numbers("vertex", {"blue", "b", "diffuse_blue"});
   using Type = io::PlyProperty::Type;
-  const auto* channel = vertex->find("red") ? vertex->find("red") : vertex->find("r");
+  const auto* channel = ply.element("vertex").find({"red", "r"});
   const double full = channel && channel->type == Type::uint16                                        ? 65535
                       : channel && (channel->type == Type::float32 || channel->type == Type::float64) ? 1
                                                                                                       : 255;
   const glm::dmat4 upright = io::upright(stroke.up);
-  std::vector<glm::dvec3> places;
-  for (std::size_t i = 0; i < vertex->count; ++i)
-    places.emplace_back(upright * glm::dvec4(x[i], y[i], z[i], 1));
+  for (glm::dvec3& place : places) place = glm::dvec3(upright * glm::dvec4(place, 1));
   const PlaceIndex theirs(places);
   const double tolerance = 100 * weld_tolerance(canvas.surface.rest);
   const auto fixed = fixed_directions(canvas, stroke);
@@ -117,7 +111,7 @@ std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintS
          fmt::format(
              "{} of the model's {} welded vertices are not among the {} of {}; export the same rest pose, "
              "and say 'up' where its up axis is not y",
-             missing, canvas.surface.vertex_count(), vertex->count, file));
+             missing, canvas.surface.vertex_count(), places.size(), stroke.file.string()));
   }
   return touches;
 }

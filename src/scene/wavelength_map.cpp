@@ -21,16 +21,11 @@ Error bad(const std::filesystem::path& path, const std::string& what) {
 
 std::vector<double> by_vertex(const Surface& surface, const std::filesystem::path& path,
                               const glm::dmat4& to_world) {
-  const io::Ply ply = io::read_ply(path);
-  const io::PlyElement* vertex = ply.find("vertex");
-  if (!vertex) throw bad(path, "has no element 'vertex'");
-  const auto of = [&](const char* name) -> const std::vector<double>& {
-    return io::ply_values(*vertex, {name}, path.string());
-  };
-  const auto &x = of("x"), &y = of("y"), &z = of("z"), &lengths = of("wavelength");
-  std::vector<glm::dvec3> places;
-  for (std::size_t i = 0; i < vertex->count; ++i) {
-    places.emplace_back(to_world * glm::dvec4(x[i], y[i], z[i], 1));
+  const io::Ply ply = io::read_ply(path, {"x", "y", "z", "wavelength"});
+  std::vector<glm::dvec3> places = ply.vectors("vertex");
+  const std::vector<double>& lengths = ply.numbers("vertex", {"wavelength"});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[i] = glm::dvec3(to_world * glm::dvec4(places[i], 1));
     if (!(lengths[i] > 0))
       throw bad(path,
                 fmt::format("vertex {}: the wavelength is {:g}; it has to be more than 0", i, lengths[i]));
@@ -48,7 +43,7 @@ std::vector<double> by_vertex(const Surface& surface, const std::filesystem::pat
     throw bad(path,
               fmt::format("{} of the model's {} welded vertices are not among its {}; it has to be over "
                           "the rest pose, in the model's own unit and axes",
-                          missing, surface.vertex_count(), vertex->count));
+                          missing, surface.vertex_count(), places.size()));
   }
   return result;
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/image.h"
-#include "io/import_obj.h"
+#include "io/obj.h"
 #include "support/files.h"
 
 namespace plisse {
@@ -30,7 +30,7 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
     }
 
     // The files hold what the report counts.
-    const io::ObjFile obj = io::read_obj_file(folder / (panel.name + ".obj"));
+    const io::ObjFile obj = io::read_obj(folder / (panel.name + ".obj"), {.uvs_and_normals = true});
     EXPECT_EQ(obj.positions.size(), panel.vertices);
     EXPECT_EQ(obj.triangles.size(), panel.triangles);
     for (std::size_t i = 0; i < obj.positions.size();
@@ -62,7 +62,7 @@ TEST(Size, TheSkirtIsOneMesh) {
     EXPECT_GE(panel.quality.edges_within, 0.99) << panel.name;
     EXPECT_GE(panel.quality.least_angle, 25) << panel.name;
   }
-  const io::ObjFile obj = io::read_obj_file(folder / "garment.obj");
+  const io::ObjFile obj = io::read_obj(folder / "garment.obj");
   EXPECT_EQ(obj.positions.size(), report.garment->vertices);
   std::size_t together = 0, seam_vertices = 0;
   for (const cloth::SizeReport::Panel& panel : report.panels) together += panel.vertices;

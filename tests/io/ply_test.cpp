@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using Type = PlyProperty::Type;
 
 Ply parsed(const std::string& text) {
-  return parse_ply({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, "some.ply");
+  return parse_ply(text, "some.ply");
 }
 
 std::string complaint(const std::string& text) {
@@ -77,7 +77,39 @@ TEST(PlyFile, ComesBackAsWritten) {
   EXPECT_THAT(test::names_in(folder.path()), ElementsAre("a.ply"));
 }
 
+// What nobody asks for may be anything, as long as it can be passed over.
+TEST(PlyFile, OnlyWhatIsWantedHasToBeFinite) {
+  const std::string text = header + "0.5 nan\n-1 7\n3 0 1 1\n";
+  EXPECT_THAT(complaint(text), HasSubstr("vertex 0, 'red': the value is not finite"));
+  const Ply ply = parse_ply(text, "some.ply", {"x", "vertex_indices"});
+  EXPECT_THAT(ply.numbers("vertex", {"x"}), ElementsAre(0.5, -1));
+  EXPECT_THAT(ply.lists("face", "vertex_indices", 3), ElementsAre(0, 1, 1));
+  EXPECT_EQ(ply.find("vertex")->find("red"), nullptr);
+  EXPECT_THAT(test::error_of([&] {
+                ply.numbers("vertex", {"red", "r"});
+              }),
+              HasSubstr("some.ply: element 'vertex' has no property 'red' or 'r'"));
+}
+
+TEST(PlyFile, ListsAreCountedInAnyType) {
+  const std::string counted = "ply\nformat ascii 1.0\nelement v 2\nproperty list float int a\nend_header\n";
+  EXPECT_THAT(parsed(counted + "2 5 6\n1.0 7\n").find("v")->find("a")->values, ElementsAre(5, 6, 7));
+}
+
+TEST(PlyFile, TextHasNineDigitsOfADoubleAndSixOfAFloat) {
+  const test::TemporaryFolder folder;
+  PlyElement vertex{
+      "vertex", 1, {{"x", Type::float64, false, {1.0 / 3}}, {"w", Type::float32, false, {2.0 / 3}}}};
+  vertex.add_lists("a", Type::int8, 2, {-1, 2});
+  write_ply(folder / "a.ply", {{"by hand"}, {vertex}}, PlyFormat::ascii);
+  EXPECT_EQ(test::read_text(folder / "a.ply"),
+            "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 1\nproperty double x\nproperty float w\n"
+            "property list uchar char a\nend_header\n0.333333333 0.666667 2 -1 2\n");
+}
+
 TEST(PlyFile, SaysWhatIsWrong) {
+  EXPECT_THAT(complaint("ply\nformat ascii 1.1\nend_header\n"),
+              HasSubstr("some.ply:2: version '1.1' of the format is not known; 1.0 is the only one"));
   EXPECT_THAT(complaint("solid"), HasSubstr("some.ply: is no PLY"));
   EXPECT_THAT(complaint("ply\nformat ascii 1.0\n"), HasSubstr("does not end"));
   EXPECT_THAT(complaint("ply\nend_header\n"), HasSubstr("no 'format'"));
@@ -94,6 +126,8 @@ TEST(PlyFile, SaysWhatIsWrong) {
               HasSubstr("promises 99999999999"));
   EXPECT_THAT(complaint("ply\nformat ascii 1.0\nelement v 1\nproperty list int int a\nend_header\n-2\n"),
               HasSubstr("-2 is no length"));
+  EXPECT_THAT(complaint("ply\nformat ascii 1.0\nelement v 1\nproperty list float int a\nend_header\n1.5 3\n"),
+              HasSubstr("v 0, 'a': 1.5 is no length"));
 }
 
 }  // namespace

@@ -70,7 +70,9 @@ TEST_F(FieldFiles, SaysWhatIsWrong) {
   test::write_text(folder_ / "q_amplitude_s.txt", "0.1\n-0.2\n0.3\n0\n");
   EXPECT_THAT(complaint(), HasSubstr("vertex 1: the amplitude is -0.2"));
   test::write_text(folder_ / "q.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n");
-  EXPECT_THAT(complaint(), HasSubstr("q.obj:3: there is no vertex 9"));
+  EXPECT_THAT(complaint(), HasSubstr("q.obj:3: vertex 9 does not exist"));
+  test::write_text(folder_ / "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_THAT(complaint(), HasSubstr("q.obj:5: the faces of this mesh need three corners each, this has 4"));
   test::write_text(folder_ / "q.obj", "v 0 0 0\n");
   EXPECT_THAT(complaint(), HasSubstr("q.obj: has no triangles"));
   std::filesystem::remove(folder_ / "q_dphi_s.txt");

@@ -118,7 +118,7 @@ const std::vector<Row>& rows() {
       {"FieldWithoutPhase", "q.obj", by_field, "field.ply", "double phase", "double fase",
        "has no list 'phase'"},
       {"FieldOfQuads", "q.obj", by_field, "field.ply", "3 0 1 2 3 0 1 2", "3 0 1 2 2 0 1",
-       "face 0: 'phase' has to have three values"},
+       "face 0: 'phase' has to have 3 values"},
       {"FieldOfNoVertex", "q.obj", by_field, "field.ply", "3 0 1 2 3", "3 0 1 7 3", "there is no vertex 7"},
       {"FieldUsedWrongly", "q.obj", by_field + "use = \"directly\"\n", "", "", "",
        "scene.toml:5:1: key 'use': 'directly' is unknown; allowed: bias or direct (did you mean "
