@@ -122,8 +122,8 @@ TEST_F(Program, InitsSceneIsTheBareModel) {
           plisse({"render", input, "--size", "96x80", "--frames", "5-15x5", "-o", (folder / to).string()});
       EXPECT_EQ(outcome.code, 0) << outcome.err;
     };
-    pipeline::render(model.string(), "bare");
-    pipeline::render(scene.string(), "scene");
+    render(model.string(), "bare");
+    render(scene.string(), "scene");
     for (const std::string name : {"frame_0005.png", "frame_0010.png", "frame_0015.png"}) {
       const auto bare = read_bytes(folder / ("bare/" + name));
       EXPECT_GT(bare.size(), 100U);
