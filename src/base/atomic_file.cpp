@@ -1,4 +1,4 @@
-// POSIX calls rather than streams: a stream forgets errno, and a full disk may only show at close.
+// POSIX calls rather than streams: streams lose errno, and a full disk may be reported only by close.
 #include "base/atomic_file.h"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() { close(); }
   int number() const { return number_; }
-  // 0 or errno; network file systems report what did not fit only here.
+  // 0 or errno; network file systems report a full disk only here.
   int close() {
     const int number = std::exchange(number_, -1);
     return number < 0 || ::close(number) == 0 ? 0 : errno;
@@ -65,7 +65,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& folder) {
   return folder / fmt::format(".plisse-{}-{}.tmp", ::getpid(), counter++);
 }
 
-// Where a path leads; a folder is none.
+// The target of a path; a folder is an error.
 std::filesystem::path target_of(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto target = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(path, ignored)
@@ -88,7 +88,7 @@ std::filesystem::path new_temporary(const std::filesystem::path& path, const std
   std::error_code made;
   std::filesystem::create_directories(folder, made);
   if (made) fail_write(path, made.value());
-  // O_EXCL: a name left by a killed process, or taken by another machine on the same disk, is passed over.
+  // O_EXCL: skips a name that a killed process left, or that another machine uses on the same disk.
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const auto temporary = temporary_name(folder);
     if (Descriptor(temporary, O_WRONLY | O_CREAT | O_EXCL).number() >= 0) return temporary;

@@ -1,4 +1,4 @@
-// Files read and written whole or not at all: what stands under a final name is always complete.
+// Files are read and written completely or not at all: a file under its final name is always complete.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace plisse {
 
-// Writes beside the final name and renames, so that neither a crash, a full disk nor a second process leaves
-// half a file under `path`. Makes missing folders; keeps a symbolic link and writes where it points; a device
-// or pipe is written straight through (renaming over /dev/null would replace it). Throws Error(no_output)
-// with path and reason, and then nothing new is left behind.
+// Writes a temporary file in the same folder and renames it, so that a crash, a full disk or a second process
+// never leaves an incomplete file under `path`. Makes missing folders; keeps a symbolic link and writes to
+// its target; writes to a device or pipe directly (renaming over /dev/null would replace it). Throws
+// Error(no_output) with path and reason; then no new file is left.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
-// The same piece by piece, for what is too large to be held at once: stands under its name from `commit` on,
-// and leaves nothing behind without it. All throw Error(no_output).
+// The same in pieces, for data too large for memory: the file gets its name in `commit`; without it no file
+// is left. All throw Error(no_output).
 class WholeFile {
  public:
   explicit WholeFile(const std::filesystem::path& path);
@@ -34,8 +34,8 @@ class WholeFile {
   int file_ = -1;
 };
 
-// For a run that writes only at its end: throws what write_whole_file would throw, where that shows by making
-// a file beside the final name. Makes missing folders.
+// For a run that writes only at its end: throws early the errors of write_whole_file that can be found by
+// making a temporary file. Makes missing folders.
 void check_writable(const std::filesystem::path& path);
 
 // Throws Error(bad_input) with path and reason (missing, a folder, not readable).

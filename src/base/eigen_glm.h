@@ -1,5 +1,5 @@
-// Points between the two libraries of vectors: GLM where surfaces are drawn and files are read, Eigen where
-// equations are solved. A list of points in GLM is a 3 × n matrix in Eigen, one column a point.
+// Conversion of points between two libraries: GLM is used where surfaces are drawn and files are read, Eigen
+// where equations are solved. A list of points in GLM is a 3 × n matrix in Eigen, one column a point.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Errors and the exit codes they end in (docs/contract.md, "Exit codes").
+// Errors and their exit codes (docs/contract.md, "Exit codes").
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ enum class ExitCode {
   fine = 0,
   check_failed = 1,  // a check did not hold, or a solver stopped short of its rule
   bad_input = 2,     // usage, or a file that cannot be used
-  some_frames = 3,   // some frames could not be rendered, the others stand
+  some_frames = 3,   // some frames could not be rendered, the others are complete
   no_opengl = 4,     // no usable OpenGL
   no_output = 5,     // output could not be written
   try_again = 75,    // GPU lost, memory exhausted while rendering

@@ -14,8 +14,8 @@ struct XXH3_state_s;
 
 namespace plisse {
 
-// Every value goes in with its kind and, for texts, its length: ("ab", "c") differs from ("a", "bc"), 1
-// from 1.0. A copy goes on by itself, so what all frames share is hashed once.
+// Each value is hashed with its type and, for texts, its length: ("ab", "c") differs from ("a", "bc"), 1
+// from 1.0. A copy can be continued independently, so that the values that all frames share are hashed once.
 class Hash {
  public:
   Hash();

@@ -1,7 +1,7 @@
-// Why: every frame needs the same large buffers again. Handed back to the kernel between frames they would be
-// mapped and zeroed page by page each time, which was a fifth of a run's CPU time; and in pages of 4 KiB the
-// first touch of a picture of 1280 × 1024 with four samples takes 12,000 faults, which was a third of the
-// time to the first frame.
+// Reason: every frame needs the same large buffers. If they were returned to the kernel between frames, their
+// pages would be mapped and zeroed again each time, which was a fifth of a run's CPU time. With pages of 4
+// KiB the first access to a picture of 1280 × 1024 with four samples causes 12,000 page faults, which was a
+// third of the time to the first frame.
 #include "base/heap.h"
 
 #include <cstdlib>
@@ -21,8 +21,9 @@ namespace plisse {
 #ifdef __GLIBC__
 namespace {
 
-// Whether address space that is not used costs nothing: no limit on it (ulimit -v, batch systems), where a
-// reserve would be taken from threads and drivers, and no kernel that counts what may be used as if it were.
+// Whether unused address space costs nothing: there is no limit on it (ulimit -v, batch systems), which
+// threads and drivers would have to share, and the kernel does not count reserved memory as used
+// (overcommit).
 bool address_space_is_free() {
   for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
     rlimit limit{};
@@ -39,10 +40,10 @@ bool address_space_is_free() {
 
 void prepare_heap() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most there is: smaller blocks come from the heap
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);   // up to 1 GiB of what is free stays with the process
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum: smaller blocks come from the heap
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);   // up to 1 GiB of free memory stays with the process
   if (!address_space_is_free()) return;
-  // The heap's first part, address space alone until it is touched, in large pages.
+  // The heap's first part in large pages; it is only address space until it is used.
   constexpr int reserve = 512 << 20, default_padding = 128 << 10;
   mallopt(M_TOP_PAD, reserve);
   constexpr std::size_t large_page = 2 << 20;

@@ -1,16 +1,16 @@
-// How the C library's heap is kept for runs that need large buffers from start to end.
+// Settings of the C library's heap for runs that need large buffers from start to end.
 #pragma once
 
 namespace plisse {
 
-// Lets the heap keep what is freed, and grow in large pages. For programs, once, at the start of main(): a
-// library has no business with its caller's heap. Where the C library is not glibc nothing happens.
+// The heap keeps freed memory and grows in large pages. For programs, once, at the start of main(): a library
+// must not change its caller's heap. Does nothing where the C library is not glibc.
 void prepare_heap();
 
-// From now on one heap for all threads and for blocks of any size, as long as no thread but the first has
-// allocated: for work whose threads hand each other a few large blocks, which would be mapped and unmapped
-// for every picture. Not for threads that allocate much, nor for solvers whose blocks grow: what they leave
-// behind in a heap is not handed back.
+// From now on all threads use one heap for blocks of any size, provided that only the first thread has
+// allocated so far. For work whose threads pass each other a few large blocks, which would otherwise be
+// mapped and unmapped for every picture. Not for threads that allocate much, nor for solvers whose blocks
+// grow: memory that they free stays in the heap.
 void share_heap();
 
 }  // namespace plisse

@@ -21,7 +21,7 @@ extern "C" void note_signal(int number) {
 void install_interrupt_handlers() {
   struct sigaction action {};
   action.sa_handler = note_signal;
-  action.sa_flags = SA_RESTART;  // a write under way is not to fail with EINTR
+  action.sa_flags = SA_RESTART;  // a write in progress must not fail with EINTR
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

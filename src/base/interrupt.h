@@ -3,8 +3,8 @@
 
 namespace plisse {
 
-// From now on the first SIGINT or SIGTERM is only noted; the second ends the process at once with 128 + its
-// number. May be called again.
+// From now on the first SIGINT or SIGTERM is only recorded; the second ends the process at once with 128 +
+// its number. May be called again.
 void install_interrupt_handlers();
 
 // Whether a signal has come; long loops ask after every frame.

@@ -9,7 +9,7 @@ namespace plisse {
 
 std::uint64_t Limits::with_factor(int limit) const {
   const double value = std::floor(limit * factor);
-  // Beyond 2^63 a double cannot be turned into an integer; nobody's file is there.
+  // A double beyond 2^63 cannot be converted to an integer; no file is that large.
   return value < 9e18 ? static_cast<std::uint64_t>(value) : std::numeric_limits<std::uint64_t>::max();
 }
 

@@ -1,5 +1,5 @@
-// How much one model file may ask for. Damaged and hostile files state counts of billions; a limit turns them
-// into an error that names it instead of a machine that swaps. The keys of [limits] in a scene
+// Limits for one model file. Damaged and hostile files may contain counts of billions; with a limit they give
+// an error that names the limit, and do not fill the machine's memory. The keys of [limits] in a scene
 // (src/config/keys.cpp) set them.
 #pragma once
 

@@ -33,7 +33,7 @@ int terminal_columns() {
 std::mutex bar_mutex;
 bool bar_on_screen = false;
 
-// A closed stderr is no reason to stop a run: nobody asks whether this came through.
+// A closed stderr must not stop a run, so the result is ignored.
 void say(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
@@ -86,7 +86,7 @@ void Progress::update(int done, int total, std::string_view what) {
     return;
   }
   const std::lock_guard lock(bar_mutex);
-  if (bar_on_screen && done < total && now - drawn_ < 0.05) return;  // 20 a second are enough for an eye
+  if (bar_on_screen && done < total && now - drawn_ < 0.05) return;  // 20 updates a second are enough
   // One column stays free: some terminals wrap when the last one is written. "\x1b[K" clears what a longer
   // bar left.
   say(fmt::format("\r{}\x1b[K", progress_bar(done, total, seconds, terminal_columns() - 1)));

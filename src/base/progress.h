@@ -1,4 +1,4 @@
-// How far a run is, on stderr: a bar on a terminal, a line a step elsewhere, nothing when quiet.
+// Progress of a run on stderr: a bar on a terminal, one line a step elsewhere, nothing with -q.
 #pragma once
 
 #include <string>
@@ -28,8 +28,8 @@ class Progress {
   // After a step; `what` names it. From one thread.
   void update(int done, int total, std::string_view what);
 
-  // Wipes the bar that stands on the terminal's last line, if one does, so that a message has the line to
-  // itself; the next update draws it again. From any thread (base/log.cpp).
+  // Clears the bar on the terminal's last line, if there is one, so that a message has the line to itself;
+  // the next update draws it again. From any thread (base/log.cpp).
   static void wipe();
 
  private:

@@ -1,4 +1,4 @@
-// Text for people: lines that fit, columns that stand below each other. Text of files: its lines and their
+// Text for users: wrapped lines and aligned columns. Text of files: its lines and their
 // words.
 #pragma once
 

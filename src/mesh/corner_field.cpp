@@ -25,7 +25,7 @@ CornerField::CornerField(const LoopLevel& level, std::vector<std::array<double, 
     : values_(std::move(values)), known_(std::move(known)), shift_(level.faces.size()), period_(period) {
   double largest = 0;
   for (const auto& v : values_) largest = std::max({largest, std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-  // Fields from files have seven digits or more.
+  // Fields in files have at least seven digits.
   const double tolerance = 1e-6 * std::max(largest, period);
   const auto multiple = [&](double jump) -> std::optional<double> {
     const double nearest = period > 0 ? period * std::round(jump / period) : 0;
@@ -67,7 +67,8 @@ void CornerField::look_around(const LoopLevel& level, std::size_t face, std::siz
     if (const auto shift = shift_[face][side]) see(beyond / 3, 3 + beyond % 3, *shift);
     return;
   }
-  // Both ways round the vertex: across the side that leads to it, then across the one that leads away.
+  // Around the vertex in both directions: first across the side that leads to it, then across the one that
+  // leads away.
   for (const bool to : {true, false}) {
     std::size_t f = face, corner = place;
     double shift = 0;
@@ -78,7 +79,7 @@ void CornerField::look_around(const LoopLevel& level, std::size_t face, std::siz
       shift += *step;
       const std::uint32_t beyond = level.across[f][side];
       f = beyond / 3;
-      if (f == face) return;  // all round
+      if (f == face) return;  // once around
       corner = to ? beyond % 3 : (beyond % 3 + 1) % 3;
       see(f, corner, shift);
     }
@@ -118,7 +119,8 @@ CornerField CornerField::refined(const LoopLevel& coarse, const LoopLevel& fine,
   result.values_.assign(fine.faces.size(), {0, 0, 0});
   result.known_.assign(fine.faces.size(), false);
   result.shift_.resize(fine.faces.size());
-  // The six points of each coarse face. One sum is for all faces of a neighbourhood: jumps stay exact.
+  // The six points of each coarse face. All faces of a neighbourhood use the same sum, so that jumps stay
+  // exact.
   std::vector<std::array<std::optional<double>, 6>> points(coarse.faces.size());
   Neighbourhood near;
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {

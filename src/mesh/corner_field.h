@@ -1,11 +1,11 @@
-// Numbers that the corners of faces have, subdivided with the surface they are on: phases, whose values at
-// one vertex differ by whole turns from face to face; texture coordinates, which have seams; both may be
-// unknown on some faces.
+// Values at the corners of faces, subdivided together with the surface: phases, whose values at one vertex
+// differ by whole turns from face to face; texture coordinates, which have seams. Both may be unknown on some
+// faces.
 //
-// Masks reach over several faces. All values that one needs are brought to the branch of one face, across the
-// sides where the two faces' numbers agree up to a multiple of the period; what cannot be reached that way is
-// continued linearly from what can. So a field that is linear in space stays so, whatever its jumps, seams
-// and holes.
+// A mask uses values of several faces. They are first shifted to the branch of one face, across sides where
+// the values of the two faces agree up to a multiple of the period; values that cannot be reached in this way
+// are extrapolated linearly from those that can. So a field that is linear in space stays linear, whatever
+// its jumps, seams and holes.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ namespace plisse {
 
 class CornerField {
  public:
-  // One value a corner of every face of `level`; known: one flag a face. period: what values of one vertex
-  // may differ by, times a whole number; 0: not at all. At which end of a side that is looked up `trust` says
-  // (one number a vertex): where it is larger; both ends where it is empty.
+  // One value a corner of every face of `level`; known: one flag a face. period: values of one vertex may
+  // differ by a multiple of it; 0: they must be equal. Two faces are compared at the end of their common side
+  // where `trust` (one number a vertex) is larger; at both ends if it is empty.
   CornerField(const LoopLevel& level, std::vector<std::array<double, 3>> values, std::vector<bool> known,
               double period, const std::vector<double>& trust = {});
 
@@ -54,8 +54,8 @@ class CornerField {
     std::size_t place;  // what the point is there
     double shift;       // to be added to its values
   };
-  // What can be reached of the faces round a point of a face: a corner's are all round it, those of a side's
-  // middle on both sides. Values are in the branch of the first face.
+  // The reachable faces around a point of a face: for a corner all faces around it, for the middle of a side
+  // the faces on both sides. Values are in the branch of the first face.
   struct Neighbourhood {
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
@@ -69,8 +69,8 @@ class CornerField {
 
   std::vector<std::array<double, 3>> values_;
   std::vector<bool> known_;
-  // What to add to the values of the neighbour beyond a side for the branch of the face; none where they have
-  // nothing in common.
+  // The number to add to the values of the neighbour across a side to get the branch of the face; none where
+  // the values do not agree.
   std::vector<std::array<std::optional<double>, 3>> shift_;
   double period_ = 0;
 };

@@ -23,7 +23,7 @@ Error bad(const std::string& what) {
   return {ExitCode::bad_input, "the mesh cannot be subdivided: " + what};
 }
 
-// What OpenSubdiv would make the best of: it duplicates or sharpens where a surface is none.
+// Errors that OpenSubdiv does not report: where a surface is not manifold it duplicates or sharpens vertices.
 void check_manifold(const Faces& faces, std::uint32_t vertex_count) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sides;    // (from, to) → face
   std::vector<std::map<std::uint32_t, std::uint32_t>> next(vertex_count);  // round a vertex, outer edges
@@ -44,7 +44,7 @@ void check_manifold(const Faces& faces, std::uint32_t vertex_count) {
   }
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
     if (next[v].empty()) continue;
-    // From the edge that nothing leads to, or any.
+    // Begins at the edge without a predecessor, or at any.
     std::set<std::uint32_t> led_to;
     for (const auto& [from, to] : next[v]) led_to.insert(to);
     std::uint32_t start = next[v].begin()->first;
@@ -81,19 +81,19 @@ std::unique_ptr<TopologyRefiner> refiner_of(const Faces& faces, std::uint32_t ve
       Factory::Create(descriptor, Factory::Options(OpenSubdiv::Sdc::SCHEME_LOOP, boundary)));
   if (!refiner) throw bad("OpenSubdiv refuses it");
   TopologyRefiner::UniformOptions uniform(static_cast<unsigned int>(levels));
-  uniform.fullTopologyInLastLevel = true;  // limits look round its vertices
+  uniform.fullTopologyInLastLevel = true;  // limit masks need the faces around its vertices
   refiner->RefineUniform(uniform);
   return refiner;
 }
 
-// Stands for a vertex's value towards OpenSubdiv, and notes what it is made of.
+// Takes the place of a vertex's value in OpenSubdiv, and records the weights it is computed with.
 struct Recorder {
   std::vector<LoopWeight> weights;
   void Clear() { weights.clear(); }
   void AddWithWeight(std::uint32_t vertex, double weight) {
     if (weight != 0) weights.push_back({vertex, weight});
   }
-  // Of points inside faces, which other schemes than Loop's have.
+  // For points inside faces, which only schemes other than Loop's have.
   void AddWithWeight(const Recorder& other, double weight) {
     for (const LoopWeight& w : other.weights) AddWithWeight(w.vertex, weight * w.weight);
   }

@@ -1,7 +1,7 @@
 // Loop subdivision as masks: which vertices of a mesh, with what weights, make each vertex of the next finer
 // one, of the limit surface and of its tangents (C. Loop, Smooth Subdivision Surfaces Based on Triangles,
-// 1987). OpenSubdiv finds them; here they become plain rows, so that numbers can be subdivided which are no
-// vertex's own, such as phases that jump.
+// 1987). OpenSubdiv computes them; here they become plain rows, so that values can be subdivided that are not
+// one per vertex, such as phases with jumps.
 #pragma once
 
 #include <array>
@@ -44,10 +44,10 @@ struct LoopSubdivision {
   std::array<Rows<LoopWeight>, 2> tangents;
 };
 
-// Boundaries are curves of their own (cubic B-splines); those of its vertices that only one face has, and all
-// that `sharp` names, stay in place. Throws Error(bad_input) where a face names a vertex that is not there or
-// one twice, an edge has more than two faces, two faces run along an edge the same way, or faces at a vertex
-// do not hang together round it.
+// Boundaries are cubic B-spline curves that do not depend on the interior; boundary vertices of only one
+// face, and all vertices in `sharp`, stay in place. Throws Error(bad_input) where a face names a vertex that
+// is not there or one twice, an edge has more than two faces, two faces run along an edge the same way, or
+// the faces at a vertex are not connected around it.
 LoopSubdivision subdivide_loop(const std::vector<std::array<std::uint32_t, 3>>& faces,
                                std::uint32_t vertex_count, int levels,
                                const std::vector<std::uint32_t>& sharp = {});

@@ -26,7 +26,7 @@ using std::numbers::pi;
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr int moments = 1024;      // resolution in k: k_max π/2 over this
-constexpr int grid = 4 * moments;  // where the density is looked at
+constexpr int grid = 4 * moments;  // sample points of the density
 constexpr int most_waves = 4;
 constexpr int bin_count = 64;
 
@@ -124,7 +124,7 @@ std::vector<double> density(const Sparse& x, const VectorXd& v) {
     }
     last = t;
   });
-  // The last odd moment has no product of its own; the kernel takes it to 0 there anyway.
+  // The last odd moment is not computed; the kernel's weight there is 0 anyway.
   std::vector<double> result(grid);
   tbb::parallel_for(0, grid, [&](int j) {
     const double theta = pi * (j + 0.5) / grid;
@@ -137,15 +137,15 @@ std::vector<double> density(const Sparse& x, const VectorXd& v) {
 }
 
 struct Peak {
-  int low = 0, top = 0, high = 0;  // grid places: the minima beside it
+  int low = 0, top = 0, high = 0;  // grid indices: the peak and the minima on both sides
   double power = 0;
 };
 
-// A surface with rims has its modes up to π over its shorter side apart, and a wave that does not end on one
-// of them stands in several, like the teeth of a comb, at worst in every second: a bell in k as wide makes
-// one hill of them. A wave across that side has k at least 2π times the number of waves over it, so that with
-// four or more of them a bell of .15 k is wide enough, or one as for a square of the same area: waves along a
-// ribbon are not taken for one.
+// On a surface with a boundary, modes are up to π over the shorter side apart in k. A wave that is not one of
+// the modes appears as several narrow peaks, in the worst case at every second mode; smoothing with a bell of
+// that width in k joins them to one peak. A wave across that side has k of at least 2π times the number of
+// waves over it; so with four or more waves a bell of .15 k is wide enough, or the bell for a square of the
+// same area. Then different waves along a ribbon are not joined to one.
 std::vector<double> smoothed(const std::vector<double>& power, double longest, double narrowest,
                              double widest) {
   std::vector<double> result(power.size(), 0.0);
@@ -167,7 +167,7 @@ std::vector<double> smoothed(const std::vector<double>& power, double longest, d
   return result;
 }
 
-// Hills of `hills`, each from valley to valley, with their share of `power`.
+// Peaks of `hills`, each from minimum to minimum, with their share of `power`.
 std::vector<Peak> peaks(const std::vector<double>& power, const std::vector<double>& hills) {
   std::vector<Peak> found;
   const auto h = [&](int j) { return hills[static_cast<std::size_t>(j)]; };
@@ -180,13 +180,13 @@ std::vector<Peak> peaks(const std::vector<double>& power, const std::vector<doub
     found.push_back(peak);
   }
   std::sort(found.begin(), found.end(), [](const Peak& a, const Peak& b) { return a.power > b.power; });
-  // A tenth of the strongest's amplitude.
+  // A tenth of the strongest wave's amplitude.
   while (!found.empty() && (found.size() > most_waves || found.back().power < 0.01 * found.front().power))
     found.pop_back();
   return found;
 }
 
-// What of v lies between two angles: Chebyshev series of a step up and a step down.
+// The part of v between two angles: Chebyshev series of a step up and a step down.
 std::vector<VectorXd> filtered(const Sparse& x, const VectorXd& v, const std::vector<Peak>& peaks) {
   std::vector<VectorXd> parts(peaks.size(), VectorXd::Zero(v.size()));
   chebyshev(x, v, moments, [&](int m, const VectorXd& t) {
@@ -201,10 +201,10 @@ std::vector<VectorXd> filtered(const Sparse& x, const VectorXd& v, const std::ve
 
 struct Rim {
   double length = 0;
-  std::vector<double> distance;  // of each vertex, along edges; infinite where there is no rim
+  std::vector<double> distance;  // of each vertex, along edges; infinite where there is no boundary
 };
 
-// Edges of one triangle only, and how far all vertices are from them (Dijkstra).
+// Edges of one triangle only, and the distance of all vertices from them (Dijkstra).
 Rim rim_of(const HeightField& field) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Edge> edges;
@@ -245,15 +245,16 @@ Rim rim_of(const HeightField& field) {
   return rim;
 }
 
-// The shorter side of the rectangle with this area and rim; the root of the area where a rim is too short for
-// one: a hole in a closed surface, or none.
+// The shorter side of the rectangle with this area and boundary length; the root of the area where the
+// boundary is too short for a rectangle: a hole in a closed surface, or no boundary.
 double shorter_side(double area, double rim) {
   const double square = rim * rim / 16 - area;
   return square > 0 ? 0.25 * rim - std::sqrt(square) : std::sqrt(area);
 }
 
-// The wavelength of f, one wave, by ∫w|∇f|² = k² ∫w f²: w falls to zero at rims over one wavelength, `guess`,
-// for there the filter bends what it has cut out. Nothing where most of f is that close to rims.
+// The wavelength of f, one wave, from ∫w|∇f|² = k² ∫w f². The weight w falls to zero at the boundary over one
+// wavelength, `guess`, because the filter distorts f there. Nothing where most of f is that close to the
+// boundary.
 std::optional<double> wavelength_away_from(const Rim& rim, double guess, const HeightField& field,
                                            const VectorXd& f) {
   double slopes = 0, heights = 0, all = 0, inmost = 0;
@@ -269,8 +270,8 @@ std::optional<double> wavelength_away_from(const Rim& rim, double guess, const H
     const glm::dvec3 slope =
         ((value(1) - value(0)) * glm::cross(c, normal) + (value(2) - value(0)) * glm::cross(normal, b)) /
         square;
-    // Straight lines between samples of a wave are less steep than it is. Of e^(ik·x), a triangle's edges e
-    // with cotangents c show Σ c 2(1 − cos k·e) in place of Σ c (k·e)².
+    // Linear interpolation of a wave is less steep than the wave: for e^(ik·x), a triangle with edges e and
+    // cotangents c gives Σ c 2(1 − cos k·e) instead of Σ c (k·e)².
     double steeper = 1;
     if (const double steep = glm::length(slope); steep > 0) {
       const glm::dvec3 k = 2 * pi / (guess * steep) * slope;
@@ -309,7 +310,7 @@ glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
     tensor += std::sqrt(square) * slope * slope.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
-  // Round a tube the slopes point all ways: no direction is twice as strong as the next.
+  // Around a tube the slopes have all directions: no direction is twice as strong as the next.
   if (!(solver.eigenvalues()[2] > 2 * solver.eigenvalues()[1])) return glm::dvec3(0);
   Eigen::Vector3d d = solver.eigenvectors().col(2);
   Index largest = 0;
@@ -318,8 +319,9 @@ glm::dvec3 direction_of(const HeightField& field, const VectorXd& f) {
   return {d.x(), d.y(), d.z()};
 }
 
-// Connected regions where f is above 0; left out are those smaller than a sixteenth of a square wave, and
-// those that nowhere rise above a tenth of the wave: what a rim leaves of a crest, and roundings.
+// Connected regions where f is above 0. Regions smaller than a sixteenth of a squared wavelength, and regions
+// that are nowhere higher than a tenth of the wave, are left out: they are crests cut by the boundary, and
+// rounding errors.
 int crests(const HeightField& field, const VectorXd& f, const VectorXd& mass, const MeshWave& wave) {
   std::vector<std::uint32_t> parent(field.base.size());
   for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
@@ -373,14 +375,14 @@ MeshSpectrum measure_waves(const HeightField& field) {
   VectorXd f = Eigen::Map<const VectorXd>(field.height.data(), static_cast<Index>(field.height.size()));
   f.array() -= l.mass.dot(f) / area;
   const VectorXd root = l.mass.cwiseSqrt(), v = root.cwiseProduct(f);
-  // Roundings of places are no waves.
+  // Rounding errors of positions are not waves.
   if (!(v.squaredNorm() > 1e-18 * area * area)) return spectrum;
   const Scaled x = scaled(l);
   std::vector<double> power = density(x.matrix, v);
   const auto wavenumber = [&](double j) { return x.longest * std::sin(0.5 * pi * (j + 0.5) / grid); };
   for (int j = 0; j < grid; ++j) {
     const double sk = field.smoothing * wavenumber(j) * wavenumber(j);
-    // A base that took more than half of a wave says nothing of it.
+    // If more than half of a wave is in the base, its amplitude cannot be determined.
     if (field.smoothing > 0) power[static_cast<std::size_t>(j)] *= sk < 1 ? 0 : std::pow((1 + sk) / sk, 2);
   }
 
@@ -389,16 +391,16 @@ MeshSpectrum measure_waves(const HeightField& field) {
       smoothed(power, x.longest, 1.1 * pi / std::sqrt(area), 1.1 * pi / shorter_side(area, rim.length));
   const std::vector<Peak> found = peaks(power, hills);
   std::vector<VectorXd> parts = filtered(x.matrix, v, found);
-  // A rim that cuts a wave off spreads a little of it over the whole spectrum. Where what no hill holds is
-  // that little, it is the strongest wave's, whose crests would be bent at the rims without it, and counted
-  // wrongly.
+  // Where the boundary cuts a wave, a little of its power is spread over the whole spectrum. If the power
+  // outside all peaks is only that little, it is given to the strongest wave; without it, that wave's crests
+  // would be distorted at the boundary and counted wrongly.
   if (!parts.empty()) {
     VectorXd rest = v;
     for (const VectorXd& part : parts) rest -= part;
     if (rest.norm() < 0.3 * parts[0].norm()) parts[0] += rest;
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    // The middle of what stands above half of the peak.
+    // The middle of the range above half of the peak.
     double sum = 0, mean = 0;
     for (int j = found[i].low; j <= found[i].high; ++j) {
       const double p = hills[static_cast<std::size_t>(j)];
@@ -434,7 +436,7 @@ HeightField height_over_own_shape(const std::vector<glm::dvec3>& positions,
   for (const glm::dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
   HeightField field{positions, std::vector<double>(positions.size(), 0.0), triangles,
                     std::pow(glm::distance(low, high) / (6 * pi), 2)};
-  // Lengths are to be those of the base, which the first round only guesses by the mesh itself.
+  // Lengths are measured on the base; the first round uses the mesh itself as an estimate of it.
   for (int round = 0; round < 3; ++round) {
     const Laplacian l = laplacian(field.base, triangles);
     const VectorXd mass = l.mass.cwiseMax(1e-300);
@@ -450,7 +452,7 @@ HeightField height_over_own_shape(const std::vector<glm::dvec3>& positions,
       for (std::size_t i = 0; i < positions.size(); ++i) smooth[i][axis] = solved[static_cast<Index>(i)];
     }
     const auto normals = vertex_normals(smooth, triangles);
-    // Smoothing draws a tube in as a whole; that is no wave, and would make the base's lengths short.
+    // Smoothing shrinks a tube as a whole; this is not a wave, and would make lengths on the base too short.
     double mean = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
       field.height[i] = glm::dot(positions[i] - smooth[i], normals[i]);

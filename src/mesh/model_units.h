@@ -1,5 +1,5 @@
 // The units in which the passes work (docs/passes.md, "Units"): the model's centre is the origin and its size
-// about 1, so that single precision is spent on the model, wherever and however large it is.
+// about 1, so that rounding in single precision does not depend on the model's position and size.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Finds points by where they are: files of other programs name the same places in another order.
+// Finds points by their position: files of other programs may have the same points in another order.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace plisse {
 class PlaceIndex {
  public:
   explicit PlaceIndex(const std::vector<glm::dvec3>& points);
-  // The nearest of the points, if one is within `reach`; of equally near ones the first.
+  // The nearest point within `reach`, if there is one; of equally near ones the first.
   std::optional<std::uint32_t> nearest(const glm::dvec3& x, double reach) const;
 
  private:

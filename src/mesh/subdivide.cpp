@@ -135,7 +135,7 @@ Subdivision subdivide(const Surface& surface, const EdgeSegments& segments) {
         const Steps own{n - i - j, i, j}, steps = snapped(own, split);
         const std::size_t id = vertices.number(corners, steps, split);
         ids.push_back(static_cast<std::uint32_t>(id));
-        if (steps != own) continue;  // it comes by itself
+        if (steps != own) continue;  // moved onto another point, which sets the vertex itself
         if (fine.vertices.size() <= id) fine.vertices.resize(std::max(id + 1, vertices.count()));
         fine.vertices[id] = {static_cast<std::uint32_t>(positions.number(welded, steps, split)),
                              static_cast<std::uint32_t>(normals.number(normal, steps, split))};

@@ -1,5 +1,6 @@
-// A surface's triangles split, for geometry finer than the mesh: each edge into a power of two of segments of
-// its own, so that only what needs small triangles has them, or all alike.
+// Splits a surface's triangles, for geometry finer than the mesh: either each edge into its own number of
+// segments, a power of two, so that triangles are small only where they must be, or all edges into the same
+// number.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,14 @@ namespace plisse {
 
 constexpr int most_levels = 8;  // of halved edges: each edge in 256
 
-// What a small vertex shares with others: its place with all that meet there, its normal with those across a
-// seam of uv, but not across a hard edge.
+// The indices that a fine vertex shares with others: its position with all vertices at that point, its normal
+// with those across a seam of uv, but not across a hard edge.
 struct FineVertex {
   std::uint32_t position = 0, normal = 0;
 };
 
-// A vertex as one of the triangles that were split sees it: `toward_b` and `toward_c` of its `segments` lead
-// from the first corner to the second and the third.
+// A vertex as a point of one of the triangles that were split: `toward_b` and `toward_c` of its `segments`
+// lead from the first corner to the second and the third.
 struct FinePoint {
   std::uint32_t vertex = 0;
   std::uint16_t toward_b = 0, toward_c = 0, segments = 1;
@@ -30,8 +31,8 @@ struct FinePoint {
 };
 
 // Ids count up from the surface's own: positions begin with the welded vertices, vertices with the render
-// vertices, each in their order; then those on edges and inside triangles. On an edge there are the same
-// points for all triangles beside it, so nothing gapes.
+// vertices, each in their order; then those on edges and inside triangles. All triangles at an edge have the
+// same points on it, so there are no gaps.
 struct Subdivision {
   std::size_t position_count = 0, normal_count = 0;
   std::vector<FineVertex> vertices;
@@ -41,7 +42,7 @@ struct Subdivision {
   std::vector<std::uint32_t> first_point, first_triangle;
 
   std::size_t triangle_count() const { return triangles.size() / 3; }
-  // What becomes of `count` triangles from `first` on.
+  // The small triangles of `count` triangles from `first` on.
   struct Range {
     std::uint32_t first, count;
   };
@@ -56,30 +57,30 @@ struct Subdivision {
   }
 };
 
-// Into how many segments the edge between two welded vertices is split; the same whichever comes first.
+// The number of segments of the edge between two welded vertices; it must not depend on their order.
 using EdgeSegments = std::function<int(std::uint32_t, std::uint32_t)>;
 
-// A triangle is split as its finest edge; where another edge has fewer segments its points move to that
-// edge's nearest ones, and small triangles that are none any more are left out. Segments: 1 … 1023, any for
-// all edges alike, powers of two otherwise. Throws Error(bad_input) where the numbers of vertices do not fit
-// into 32 bits.
+// A triangle is split as finely as its finest edge; where another edge has fewer segments, points on it move
+// to the nearest of that edge's points, and small triangles that thereby lose their area are left out.
+// Segments: 1 … 1023, any for all edges alike, powers of two otherwise. Throws Error(bad_input) where the
+// numbers of vertices do not fit into 32 bits.
 Subdivision subdivide(const Surface& surface, const EdgeSegments& segments);
 Subdivision subdivide(const Surface& surface, int segments);
 
-// A subdivision moved off the surface, in whatever unit.
+// A displaced subdivision, in any unit of length.
 struct DisplacedSurface {
-  std::vector<glm::dvec3> positions;  // one a position
+  std::vector<glm::dvec3> positions;  // one per position
   std::vector<glm::dvec3> base;       // where they were before
   std::vector<glm::dvec3> normals;    // one a normal, unit
-  // One a position: by how much it was moved along the surface's normal, and by how much at most (both in the
-  // unit of positions); what the groove it lies in leaves of the sky on the side of the normals and on the
-  // other, 0…1.
+  // One per position: the displacement along the surface's normal, and its largest value there, the amplitude
+  // (both in the unit of positions); the share of the sky that is visible from the groove, on the side of the
+  // normals and on the other, 0…1.
   std::vector<glm::dvec4> relief;
 };
 
 // How often edges have to be halved so that each wave has `segments_per_wave` segments, for `waves` on the
-// edge that has most of them; fewer times where `triangles` would become more than `most_triangles` (a
-// warning says so). 0 without waves. Straight between eight, the middle of a crest is a thirteenth of its
+// edge that has most of them; fewer times where `triangles` would become more than `most_triangles` (with a
+// warning). 0 without waves. With eight straight segments, the middle of a crest may be a thirteenth of its
 // height too low (1 − cos π/8); normals are exact at every vertex.
 constexpr double segments_per_wave = 8;
 int levels_for(double waves, std::size_t triangles, double most_triangles);
