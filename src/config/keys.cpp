@@ -1,6 +1,11 @@
 #include "config/keys.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <limits>
+
+#include "config/profiles.h"
 
 namespace plisse::config {
 namespace {
@@ -124,9 +129,8 @@ const std::vector<Key>& keys() {
        "How steep the finer wrinkles are, over the coarse ones; together they take the cloth's length."},
       {"wrinkles", "strength", number(wrinkles(&WrinkleSettings::strength), {0, 10}),
        "Factor on the height of all waves.", "--strength", "S"},
-      {"wrinkles", "profile",
-       word_or_file(wrinkles(&WrinkleSettings::profile), {"sinusoid", "accordion", "pencil"}),
-       "The shape of a wave.", "--profile", "sinusoid|accordion|pencil|FILE"},
+      {"wrinkles", "profile", word_or_file(wrinkles(&WrinkleSettings::profile), wave_profile_names()),
+       "The shape of a wave.", "--profile", fmt::format("{}|FILE", fmt::join(wave_profile_names(), "|"))},
       {"wrinkles", "only", names(wrinkles(&WrinkleSettings::only)),
        "Meshes or materials that wrinkle; none named: all.", "--only", "MESH|MATERIAL"},
       {"wrinkles", "exclude", names(wrinkles(&WrinkleSettings::exclude)),

@@ -1,6 +1,7 @@
 #include "passes/profile.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +10,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "config/profiles.h"
 
 namespace plisse::passes {
 namespace {
@@ -22,8 +24,8 @@ constexpr double pi = std::numbers::pi;
 std::vector<double> read_table(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
-    fail(fmt::format("profile '{}': neither sinusoid, accordion nor pencil, and no such file can be read",
-                     path));
+    fail(fmt::format("profile '{}': neither {}, and no such file can be read", path,
+                     fmt::join(config::wave_profile_names(), " nor ")));
   }
   std::vector<double> values;
   std::string line;
@@ -84,17 +86,8 @@ Profile make_profile(const std::string& name) {
       profile.derivative[static_cast<std::size_t>(i)] = derivative(phase);
     }
   };
-  const auto sign_inside = [](double phase) {  // 0 at the crease and at the crest, where the two flanks meet
-    return phase == 0 || std::abs(phase) >= pi ? 0.0 : std::copysign(1.0, phase);
-  };
-  if (name == "sinusoid") {
-    fill([](double p) { return std::cos(p); }, [](double p) { return -std::sin(p); });
-  } else if (name == "accordion") {
-    fill([](double p) { return 1 - 2 * std::abs(p) / pi; },
-         [&](double p) { return -2 / pi * sign_inside(p); });
-  } else if (name == "pencil") {
-    fill([](double p) { return 2 * std::cos(p / 2) - 1; },
-         [](double p) { return std::abs(p) >= pi ? 0.0 : -std::sin(p / 2); });
+  if (const config::WaveProfile* known = config::find_wave_profile(name)) {
+    fill(known->f, known->derivative);
   } else {
     const std::vector<double> table = normalised_table(name);
     const auto at = [&](double phase) {
