@@ -46,27 +46,18 @@ void members(auto& a, Is<shell::Conditions> auto& value) {
   auto& [held, at, mirrors] = value;
   a(held, shell::Positions(held.select(at, 0.0)), mirrors);
 }
-void members(auto& a, Is<shell::Sphere> auto& value) {
-  auto& [centre, radius] = value;
-  a(centre, radius);
-}
-void members(auto& a, Is<shell::Plane> auto& value) {
-  auto& [point, normal] = value;
-  a(point, normal);
-}
-void members(auto& a, Is<shell::Capsule> auto& value) {
-  auto& [first, second, radius] = value;
-  a(first, second, radius);
-}
-void members(auto& a, Is<shell::Cylinder> auto& value) {
-  auto& [first, second, radius] = value;
-  a(first, second, radius);
-}
 void members(auto& a, Is<shell::Body> auto& value) {
   a(value->tree().points(), value->tree().triangles());
 }
+template <typename Solid>
+requires requires(const Solid& solid) {
+  Solid::words;
+}
+void members(auto& a, const Solid& solid) {
+  a(std::string(Solid::words.name));
+  solid.visit_members(a);
+}
 void members(auto& a, Is<shell::Obstacle> auto& value) {
-  a(value.index());
   std::visit([&](auto& body) { a(body); }, value);
 }
 void members(auto& a, Is<shell::Loads> auto& value) {

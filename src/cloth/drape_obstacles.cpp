@@ -18,7 +18,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-using Kind = config::DrapeSettings::Obstacle::Kind;
 
 // A model's welded surface at any moment between its frames.
 class MovingModel {
@@ -58,7 +57,7 @@ class MovingModel {
 
 struct Placed {
   config::DrapeSettings::Obstacle settings;
-  std::shared_ptr<MovingModel> model;  // of a mesh
+  std::shared_ptr<MovingModel> model;  // of a kind that is made of a file
 
   bool moves() const {
     return settings.motion.turn != 0 || settings.motion.move != glm::dvec3(0) || (model && model->moves());
@@ -66,20 +65,12 @@ struct Placed {
 
   shell::Obstacle at(double t, int frames) const {
     const Isometry3d motion = motion_at(settings.motion, t);
-    const Vector3d first = motion * to_eigen(settings.at), second = motion * to_eigen(settings.to);
-    switch (settings.kind) {
-      case Kind::plane:
-        return shell::Plane{first, motion.linear() * to_eigen(settings.normal)};
-      case Kind::capsule:
-        return shell::Capsule{first, second, settings.radius};
-      case Kind::cylinder:
-        return shell::Cylinder{first, second, settings.radius};
-      case Kind::mesh:
-        return model->body(1 + t * (frames - 1), motion);
-      case Kind::sphere:
-        break;
-    }
-    return shell::Sphere{first, settings.radius};
+    if (model) return model->body(1 + t * (frames - 1), motion);
+    shell::SolidShape now = settings.shape;
+    now.at = motion * now.at;
+    now.to = motion * now.to;
+    now.normal = motion.linear() * now.normal;
+    return settings.kind->make(now);
   }
 };
 
@@ -99,7 +90,7 @@ void place_obstacles(const config::DrapeSettings& settings, DrapeScene& scene) {
   bool moves = false;
   for (const auto& obstacle : settings.obstacles) {
     Placed& placed = all.emplace_back(Placed{obstacle, nullptr});
-    if (obstacle.kind == Kind::mesh) placed.model = std::make_shared<MovingModel>(obstacle);
+    if (!obstacle.kind->make) placed.model = std::make_shared<MovingModel>(obstacle);
     moves = moves || placed.moves();
   }
   for (const Placed& placed : all) scene.loads.obstacles.push_back(placed.at(0, scene.frames));

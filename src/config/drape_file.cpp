@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/atomic_file.h"
+#include "base/eigen_glm.h"
 #include "config/complaints.h"
 #include "config/fabric_key.h"
 #include "config/kinds.h"
@@ -75,6 +76,30 @@ std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double 
   return [=](DrapeSettings& s, const Node& n, const fs::path&) {
     s.*member = config::within(config::number_of(n), range);
   };
+}
+
+// The kinds of obstacles for which `is` holds, by name.
+std::vector<std::string> kind_names(const std::function<bool(const shell::ObstacleKind&)>& is) {
+  std::vector<std::string> names;
+  for (const shell::ObstacleKind& kind : shell::obstacle_kinds())
+    if (is(kind)) names.emplace_back(kind.words.name);
+  return names;
+}
+bool any_kind(const shell::ObstacleKind&) {
+  return true;
+}
+bool has_axis(const shell::ObstacleKind& kind) {
+  return kind.words.axis;
+}
+bool has_radius(const shell::ObstacleKind& kind) {
+  return kind.words.radius;
+}
+// "spheres, capsules and cylinders"
+std::string plural(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i] + "s";
+  return text;
 }
 
 void add_motion(std::vector<Key>& keys, const std::string& table, const std::string& who,
@@ -250,26 +275,35 @@ std::vector<Key> all_keys() {
   };
   all.insert(all.end(), force.begin(), force.end());
   const std::vector<Key> obstacle = {
-      {"obstacle", "kind", "sphere, plane, capsule, cylinder or mesh", "What it is; must be there.",
+      {"obstacle", "kind", config::either(kind_names(any_kind)), "What it is; must be there.",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
-         const std::vector<std::string> words = {"sphere", "plane", "capsule", "cylinder", "mesh"};
-         const auto found = std::find(words.begin(), words.end(), config::text_of(n));
-         if (found == words.end()) throw config::unknown_word(config::text_of(n), words);
-         s.obstacles.back().kind = static_cast<Obstacle::Kind>(found - words.begin());
+         const std::string word = config::text_of(n);
+         const auto& kinds = shell::obstacle_kinds();
+         const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                         [&](const auto& kind) { return kind.words.name == word; });
+         if (found == kinds.end()) throw config::unknown_word(word, kind_names(any_kind));
+         s.obstacles.back().kind = &*found;
        }},
       {"obstacle", "at", "[x, y, z], lengths",
-       "Centre, a point of the plane, or one end of the axis of a capsule or cylinder; must be there but for "
-       "a "
-       "mesh.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().at = point_of(n); }},
-      {"obstacle", "to", "[x, y, z], lengths",
-       "The other end of the axis of a capsule or cylinder; must be there for one.",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().to = point_of(n); }},
-      {"obstacle", "normal", "[x, y, z]", "Out of a plane's solid side (default [0, 1, 0]).",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.obstacles.back().normal = direction_of(n); }},
-      {"obstacle", "radius", "a length", "Of spheres, capsules and cylinders.",
+       fmt::format("Centre, a point of the plane, or one end of the axis of a {}; must be there but for a "
+                   "mesh.",
+                   config::either(kind_names(has_axis))),
        [](DrapeSettings& s, const Node& n, const fs::path&) {
-         s.obstacles.back().radius = config::within(config::length_of(n), lengths);
+         s.obstacles.back().shape.at = to_eigen(point_of(n));
+       }},
+      {"obstacle", "to", "[x, y, z], lengths",
+       fmt::format("The other end of the axis of a {}; must be there for one.",
+                   config::either(kind_names(has_axis))),
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.obstacles.back().shape.to = to_eigen(point_of(n));
+       }},
+      {"obstacle", "normal", "[x, y, z]", "Out of a plane's solid side (default [0, 1, 0]).",
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.obstacles.back().shape.normal = to_eigen(direction_of(n));
+       }},
+      {"obstacle", "radius", "a length", fmt::format("Of {}.", plural(kind_names(has_radius))),
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.obstacles.back().shape.radius = config::within(config::length_of(n), lengths);
        }},
       {"obstacle", "file", "an existing model", "Of a mesh: a closed surface, in metres; may be animated.",
        [](DrapeSettings& s, const Node& n, const fs::path& folder) {
@@ -339,20 +373,22 @@ void check_item(const std::string& name, const toml::table& table, const DrapeSe
   }
   if (name != "obstacle") return;
   if (!table.contains("kind"))
-    complaints.add(at, "key 'kind': missing; allowed: sphere, plane, capsule, cylinder or mesh");
-  using Kind = Obstacle::Kind;
-  const Kind kind = settings.obstacles.back().kind;
-  const bool has_axis = kind == Kind::capsule || kind == Kind::cylinder;
-  if (kind == Kind::mesh && !table.contains("file"))
-    complaints.add(at, "key 'file': missing; meshes need the model they are");
-  if (kind != Kind::mesh && !table.contains("at"))
-    complaints.add(at, "key 'at': missing; where the obstacle is");
-  if (has_axis && !table.contains("to"))
-    complaints.add(at, "key 'to': missing; capsules and cylinders need the other end of their axis");
-  if (has_axis && settings.obstacles.back().at == settings.obstacles.back().to)
+    complaints.add(at, fmt::format("key 'kind': missing; allowed: {}", config::either(kind_names(any_kind))));
+  const Obstacle& obstacle = settings.obstacles.back();
+  if (!obstacle.kind) return;  // which is complained of
+  if (!obstacle.kind->make) {
+    if (!table.contains("file")) complaints.add(at, "key 'file': missing; meshes need the model they are");
+    return;
+  }
+  if (!table.contains("at")) complaints.add(at, "key 'at': missing; where the obstacle is");
+  const bool axis = has_axis(*obstacle.kind);
+  if (axis && !table.contains("to"))
+    complaints.add(at, fmt::format("key 'to': missing; {} need the other end of their axis",
+                                   plural(kind_names(has_axis))));
+  if (axis && obstacle.shape.at == obstacle.shape.to)
     complaints.add(at, "key 'to': the same place as 'at'; an axis must have a length");
-  if ((has_axis || kind == Kind::sphere) && !table.contains("radius"))
-    complaints.add(at, "key 'radius': missing; spheres, capsules and cylinders need it");
+  if (has_radius(*obstacle.kind) && !table.contains("radius"))
+    complaints.add(at, fmt::format("key 'radius': missing; {} need it", plural(kind_names(has_radius))));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shell/obstacle.h"
 #include "sizing/fabric.h"
 
 namespace plisse::config {
@@ -38,12 +39,10 @@ struct DrapeSettings {
     std::string place;
   };
   struct Obstacle {
-    enum class Kind { sphere, plane, capsule, cylinder, mesh };
-    Kind kind = Kind::sphere;
-    glm::dvec3 at{0}, to{0, 1, 0}, normal{0, 1, 0};
-    double radius = 0;
-    std::filesystem::path file;  // of a mesh: a model, animated or not
-    std::string clip;            // of an animated one; empty: the first
+    const shell::ObstacleKind* kind = nullptr;  // of obstacle_kinds()
+    shell::SolidShape shape;                    // at load 0
+    std::filesystem::path file;                 // of a mesh: a model, animated or not
+    std::string clip;                           // of an animated one; empty: the first
     Motion motion;
     std::string place;
   };

@@ -2,11 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <type_traits>
 
 namespace plisse::shell {
 
@@ -87,34 +87,18 @@ std::optional<Positions> followed(const std::vector<Obstacle>& before, const std
   return result;
 }
 
-namespace {
-
-using Eigen::Vector3d;
-
-Vector3d turned(const Vector3d& from, const Vector3d& to, const Vector3d& way) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to) * way;
-}
-
-Vector3d carried_by(const Sphere& before, const Sphere& after, const Vector3d& point) {
-  return point + after.centre - before.centre;
-}
-Vector3d carried_by(const Plane& before, const Plane& after, const Vector3d& point) {
-  return after.point + turned(before.normal, after.normal, point - before.point);
-}
-template <typename Long>  // a capsule or a cylinder
-Vector3d carried_by(const Long& before, const Long& after, const Vector3d& point) {
-  return after.first + turned(before.second - before.first, after.second - after.first, point - before.first);
-}
-Vector3d carried_by(const Body& before, const Body& after, const Vector3d& point) {
-  const auto nearest = before->tree().nearest(point);
-  return point + after->tree().corners(nearest.triangle) * nearest.weights - nearest.point;
-}
-
-}  // namespace
-
-Vector3d carried_along(const Obstacle& before, const Obstacle& after, const Vector3d& point) {
+Eigen::Vector3d carried_along(const Obstacle& before, const Obstacle& after, const Eigen::Vector3d& point) {
   return std::visit(
-      [&](const auto& one) { return carried_by(one, std::get<std::decay_t<decltype(one)>>(after), point); },
+      [&](const auto& one) -> Eigen::Vector3d {
+        using Solid = std::decay_t<decltype(one)>;
+        const auto& other = std::get<Solid>(after);
+        if constexpr (std::is_same_v<Solid, Body>) {
+          const auto nearest = one->tree().nearest(point);
+          return point + other->tree().corners(nearest.triangle) * nearest.weights - nearest.point;
+        } else {
+          return one.carried_along(other, point);
+        }
+      },
       before);
 }
 

@@ -34,7 +34,7 @@ TEST(DrapeFile, ReadsWhatItSays) {
   EXPECT_EQ(s.holds[1].vertices, (std::vector<std::uint32_t>{3, 4}));
   EXPECT_EQ(s.holds[1].place, "cloth.toml:15:1");
   ASSERT_EQ(s.obstacles.size(), 1U);
-  EXPECT_EQ(s.obstacles[0].normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(s.obstacles[0].shape.normal, Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(s.obstacles[0].motion.move, glm::dvec3(0, 1, 0));
   EXPECT_EQ(s.holds[0].motion.turn, 90);
 }

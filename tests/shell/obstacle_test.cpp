@@ -60,6 +60,56 @@ TEST(ShellObstacle, DistancesAndTheirDerivatives) {
     }
 }
 
+// Whatever the list of kinds has, as scene files make it.
+TEST(ShellObstacle, EachKindOfTheListKeepsItsPromises) {
+  std::mt19937 engine(12);
+  const SolidShape shape{{0.1, 0.2, -0.3}, {0.4, 0.8, 0.6}, Vector3d(1, 2, 2) / 3, 0.5};
+  int convex = 0;
+  for (const ObstacleKind& kind : obstacle_kinds()) {
+    if (!kind.make) continue;
+    ++convex;
+    SCOPED_TRACE(kind.words.name);
+    const Obstacle solid = kind.make(shape);
+    for (int trial = 0; trial < 40; ++trial) {
+      const Vector3d at = shape.at + random_point(engine, 1.5);
+      const Distance d = distance(solid, at);
+      // Inside there are kinks, and so near to the surface that differences reach them.
+      if (d.value > 0.1) {
+        EXPECT_NEAR(d.first.norm(), 1, 1e-14);
+        // The nearest point of the surface is where the way out leads back to.
+        EXPECT_NEAR(distance(solid, at - d.value * d.first).value, 0, 1e-14);
+        test::expect_derivative([&](const Vector3d& x) { return Number(distance(solid, x).value); },
+                                [&](const Vector3d& way) { return Number(d.first.dot(way)); }, at, 0.002,
+                                engine);
+        if (d.second.norm() > 0) {
+          test::expect_derivative([&](const Vector3d& x) { return distance(solid, x).first; },
+                                  [&](const Vector3d& way) { return Vector3d(d.second * way); }, at, 0.002,
+                                  engine);
+        }
+        // Convex: distance is a convex function.
+        const Vector3d other = shape.at + random_point(engine, 1.5);
+        EXPECT_LE(distance(solid, 0.5 * (at + other)).value,
+                  0.5 * (d.value + distance(solid, other).value) + 1e-14);
+      }
+      // As far as it is off any way is free; straight on, none leads out at the other side.
+      const Vector3d way = random_point(engine, 1).normalized();
+      if (d.value > 0.1) {
+        EXPECT_EQ(free_way(solid, at, at + 0.999 * d.value * way), 1);
+        const Vector3d through = -(d.value + 10) * d.first;
+        const double share = free_way(solid, at, at + through);
+        EXPECT_LE(distance(solid, at + share * through).value, 1e-13);
+      }
+      // What sticks to it goes along.
+      SolidShape there = shape;
+      const Vector3d shift(0.3, -0.1, 0.2);
+      there.at += shift;
+      there.to += shift;
+      EXPECT_LT((carried_along(solid, kind.make(there), at) - at - shift).norm(), 1e-14);
+    }
+  }
+  EXPECT_GE(convex, 4);
+}
+
 TEST(ShellObstacle, BarrierIsSmoothAndInfinite) {
   const double gap = 0.01;
   EXPECT_TRUE(std::isinf(barrier(0, gap).value));
