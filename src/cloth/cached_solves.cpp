@@ -61,8 +61,7 @@ void members(auto& a, Is<shell::Obstacle> auto& value) {
   std::visit([&](auto& body) { a(body); }, value);
 }
 void members(auto& a, Is<shell::Loads> auto& value) {
-  auto& [gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors] = value;
-  a(gravity, pressure, forces, obstacles, gap, contact_stiffness, friction, slip, anchors);
+  value.visit_members(a);
 }
 void members(auto& a, Is<shell::NewtonSettings> auto& value) {
   auto& [max_iterations, tolerance, max_seconds] = value;

@@ -191,13 +191,10 @@ DrapeScene scene_of(const config::DrapeSettings& settings) {
     scene.bending = shell::Bending::midedge;
   }
   scene.residual = settings.residual;
-  scene.loads.gravity = to_eigen(settings.gravity);
-  scene.loads.pressure = settings.pressure;
-  scene.loads.gap = settings.gap;
+  scene.loads = settings.loads;
   scene.newton.tolerance = settings.tolerance;
   scene.newton.max_iterations = settings.iterations;
   scene.frames = settings.frames;
-  scene.loads.friction = settings.friction;
   add_forces(settings, scene);
   if (scene.bending == shell::Bending::quadratic &&
       std::ranges::any_of(settings.holds, [](const auto& hold) { return hold.mirror; }))

@@ -78,6 +78,13 @@ std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double 
   };
 }
 
+std::function<void(DrapeSettings&, const Node&, const fs::path&)> number(double shell::Loads::*member,
+                                                                         config::Range range) {
+  return [=](DrapeSettings& s, const Node& n, const fs::path&) {
+    s.loads.*member = config::within(config::number_of(n), range);
+  };
+}
+
 // The kinds of obstacles for which `is` holds, by name.
 std::vector<std::string> kind_names(const std::function<bool(const shell::ObstacleKind&)>& is) {
   std::vector<std::string> names;
@@ -226,16 +233,18 @@ std::vector<Key> all_keys() {
          s.weight = config::within(*weight, {0, 1e3});
        }},
       {"loads", "gravity", "[x, y, z], m/s²", "Default [0, -9.81, 0].",
-       [](DrapeSettings& s, const Node& n, const fs::path&) { s.gravity = vector_of(n, config::number_of); }},
+       [](DrapeSettings& s, const Node& n, const fs::path&) {
+         s.loads.gravity = to_eigen(vector_of(n, config::number_of));
+       }},
       {"loads", "pressure", "-1e+09 … 1e+09",
        "Pa, along the faces' normals. Parts that are open must be held all along their boundary.",
-       number(&DrapeSettings::pressure, {-1e9, 1e9})},
+       number(&shell::Loads::pressure, {-1e9, 1e9})},
       {"loads", "gap", "a length", "Obstacles begin to push this far off (default 2 mm).",
        [](DrapeSettings& s, const Node& n, const fs::path&) {
-         s.gap = config::within(config::length_of(n), lengths);
+         s.loads.gap = config::within(config::length_of(n), lengths);
        }},
       {"loads", "friction", "0 … 1000", "Coefficient of friction on obstacles (default 0).",
-       number(&DrapeSettings::friction, {0, 1e3})},
+       number(&shell::Loads::friction, {0, 1e3})},
       {"hold", "box", "[[x, y, z], [x, y, z]]", "Holds the vertices that start in this box.",
        [](DrapeSettings& s, const Node& n, const fs::path&) { s.holds.back().box = box_of(n); }},
       {"hold", "vertices", "an array of vertex numbers, from 0", "Holds these, in place of a box.",

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shell/obstacle.h"
+#include "shell/loads.h"
 #include "sizing/fabric.h"
 
 namespace plisse::config {
@@ -46,6 +46,12 @@ struct DrapeSettings {
     Motion motion;
     std::string place;
   };
+  static shell::Loads usual_loads() {
+    shell::Loads loads;
+    loads.gravity << 0, -9.81, 0;
+    loads.gap = 2e-3;
+    return loads;
+  }
   std::filesystem::path file;
   std::filesystem::path mesh;  // OBJ: the rest shape, cut apart by its texture coordinates' own vertices; or
   std::filesystem::path garment;  // panels and their seams (config/panel_file.h); or
@@ -62,10 +68,7 @@ struct DrapeSettings {
   std::set<std::string> material;         // the keys of [material] that the file has
   bool stvk = false;
   double residual = 0;
-  glm::dvec3 gravity{0, -9.81, 0};
-  double pressure = 0;
-  double gap = 2e-3;
-  double friction = 0;
+  shell::Loads loads = usual_loads();  // forces and obstacles stand below
   double tolerance = 1e-8;
   int iterations = 1000;
   int frames = 1;

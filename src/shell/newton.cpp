@@ -25,8 +25,8 @@ class Search {
         start_(start),
         settings_(settings),
         progress_(progress),
-        frictional_(loads.friction > 0 && !loads.obstacles.empty()),
-        potential_(shell, conditions, loads, start.rowwise().mean()) {
+        potential_(shell, conditions, loads, start.rowwise().mean()),
+        lags_(potential_.lags()) {
     result_.positions = start;
     for (Eigen::Index v = 0; v < start.cols(); ++v)
       for (int axis = 0; axis < 3; ++axis)
@@ -44,19 +44,18 @@ class Search {
     VectorXd gradient;
     Potential::Value value = potential_.value(result_.positions, &gradient);
     if (!std::isfinite(value.energy) || !gradient.allFinite())
-      throw Error(ExitCode::bad_input,
-                  "the start has no finite energy: positions are too large or too close to an obstacle");
-    if (frictional_) grip(value, gradient, true);
+      throw Error(ExitCode::bad_input, no_finite_energy());
+    if (lags_) grip(value, gradient, true);
     note(0, value, gradient, 0, 0);
     int steps_gripped = 0;
     while (true) {
       // Friction lags behind what it depends on: every few steps it catches up, and at the end it must have.
-      if (frictional_ && steps_gripped >= 4) {
+      if (lags_ && steps_gripped >= 4) {
         grip(value, gradient, false);
         steps_gripped = 0;
       }
       if (finished(value, gradient)) {
-        if (!frictional_ || steps_gripped == 0 || !result_.converged) break;
+        if (!lags_ || steps_gripped == 0 || !result_.converged) break;
         result_.converged = false;
         grip(value, gradient, false);
         steps_gripped = 0;
@@ -74,7 +73,7 @@ class Search {
       const double step = line_search(value, gradient, direction);
       result_.line_search_s += wall_seconds() - began;
       if (step == 0) {
-        if (frictional_ && steps_gripped > 0) {
+        if (lags_ && steps_gripped > 0) {
           grip(value, gradient, false);
           steps_gripped = 0;
           continue;
@@ -84,7 +83,7 @@ class Search {
       }
       ++steps_gripped;
       adapt(step, (energy - value.energy) / promised(before, direction, step),
-            gradient.cwiseAbs().maxCoeff() / largest, (energy - value.energy) / value.terms);
+            gradient.cwiseAbs().maxCoeff() / largest, (energy - value.energy) / value.summands);
       stalls_ = 0;
       ++result_.iterations;
       note(result_.iterations, value, gradient, step, used_shift_);
@@ -93,7 +92,7 @@ class Search {
         break;
       }
     }
-    if (frictional_) {
+    if (lags_) {
       // What is told is of the last state, not of the forces it was found with.
       if (steps_gripped > 0) grip(value, gradient, false);
       tell(value, gradient);
@@ -104,8 +103,16 @@ class Search {
 
  private:
   void grip(Potential::Value& value, VectorXd& gradient, bool first) {
-    potential_.grip(result_.positions, first);
+    potential_.look_up(result_.positions, first);
     value = potential_.value(result_.positions, &gradient);
+  }
+
+  std::string no_finite_energy() const {
+    std::string infinite;
+    for (const Potential::Part& part : potential_.parts(result_.positions))
+      if (!std::isfinite(part.energy)) infinite += (infinite.empty() ? " of " : ", ") + part.name;
+    return fmt::format(
+        "the start has no finite energy{}: positions are too large or too close to an obstacle", infinite);
   }
 
   // What is held by nothing may leave what it lies on.
@@ -275,7 +282,7 @@ class Search {
                  (result_.positions.rowwise().maxCoeff() - result_.positions.rowwise().minCoeff()).norm());
     if (step * longest > 0.5 * extent) step = 0.5 * extent / longest;
     // Energies are sums of a term a face, whose rounding adds up like a random walk.
-    const double rounding = 1e-16 * (10 + std::sqrt(static_cast<double>(gradient.size()))) * value.terms;
+    const double rounding = 1e-16 * (10 + std::sqrt(static_cast<double>(gradient.size()))) * value.summands;
     Positions x;
     VectorXd new_gradient;
     for (int halving = 0; halving < 60; ++halving, step *= 0.5) {
@@ -327,8 +334,8 @@ class Search {
   const Positions& start_;
   NewtonSettings settings_;
   const NewtonProgress& progress_;
-  const bool frictional_;
   Potential potential_;
+  const bool lags_;
   Equilibrium result_;
   Cholesky factor_;
   Eigen::SparseMatrix<double> hessian_, system_;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "shell/loads.h"
 #include "shell/material.h"
-#include "shell/obstacle.h"
 #include "shell/rest_shape.h"
 #include "shell/stretching.h"
 
@@ -43,23 +43,6 @@ struct Conditions {
   explicit Conditions(std::size_t vertices = 0);
   void hold(std::uint32_t vertex, const Eigen::Vector3d& position);
   void hold(std::uint32_t vertex, int axis, double coordinate);
-};
-
-struct Loads {
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², on density × thickness × rest area
-  double pressure = 0;  // Pa, along the faces' normals; of parts that are open see OpenSide
-  Positions forces;     // N, 3×V or empty
-  std::vector<Obstacle> obstacles;
-  double gap = 1e-3;             // m: obstacles begin to push this far off
-  double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
-  double friction = 0;           // μ, Coulomb's, on all obstacles
-  double slip = 0;               // m: a grip has slipped so far where friction is all it can be; 0: gap/10
-  // Where vertices stick to each obstacle that they touch at the start: 3×V an obstacle, not a number where
-  // they touched nothing before; empty, or so: where they start. For obstacles that have moved since
-  // (carried_along).
-  std::vector<Positions> anchors;
-
-  double slip_length() const { return slip > 0 ? slip : 0.1 * gap; }
 };
 
 // Adds a dead force a rest length, N/m, on edges (vertex pairs, of the base): half of it to each end.

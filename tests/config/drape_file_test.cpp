@@ -26,7 +26,7 @@ TEST(DrapeFile, ReadsWhatItSays) {
   EXPECT_FALSE(s.upright);
   EXPECT_TRUE(s.stvk);
   EXPECT_DOUBLE_EQ(s.thickness, 0.5e-3);
-  EXPECT_EQ(s.gravity, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(s.loads.gravity, Eigen::Vector3d(0, 0, -1));
   ASSERT_EQ(s.holds.size(), 2U);
   EXPECT_EQ((*s.holds[0].box)[0], glm::dvec3(0, 0, 0));  // corners in any order
   EXPECT_EQ((*s.holds[0].box)[1], glm::dvec3(1, 1, 2));
@@ -71,7 +71,7 @@ TEST(DrapeFile, ForcesFrictionAndMirrors) {
       "[[force]]\nvertices = [7]\ntotal = [0, 0, 2]\n"
       "[[force]]\nbox = [[1, 0, 0], [1, 1, 0]]\nper_length = [3, 0, 0]\ngrows = true\n",
       "cloth.toml");
-  EXPECT_EQ(s.friction, 0.4);
+  EXPECT_EQ(s.loads.friction, 0.4);
   EXPECT_TRUE(s.holds.at(0).mirror);
   ASSERT_EQ(s.forces.size(), 2U);
   EXPECT_EQ(s.forces[0].total, glm::dvec3(0, 0, 2));

@@ -161,14 +161,14 @@ TEST(ShellFriction, WhatIsToldIsOfTheLastState) {
     Loads loads = rough.loads;
     loads.anchors = e.anchors;
     Potential potential(rough.shell, rough.conditions, loads);
-    potential.grip(e.positions, true);
+    potential.look_up(e.positions, true);
     Eigen::VectorXd gradient;
     const Potential::Value value = potential.value(e.positions, &gradient);
     // Rounding of forces that cancel; where it has converged, little else is left of them.
     EXPECT_NEAR(e.gradient_inf, gradient.cwiseAbs().maxCoeff(), 1e-11 * value.force_scale) << iterations;
     EXPECT_NEAR(e.force_scale, value.force_scale, 1e-11 * value.force_scale) << iterations;
     // Anchors of what slips are dragged along, so friction has done less work since.
-    EXPECT_NEAR(e.energy - e.friction, value.energy - value.friction, 1e-11 * value.terms) << iterations;
+    EXPECT_NEAR(e.energy - e.friction, value.energy - value.friction, 1e-11 * value.summands) << iterations;
   }
 }
 

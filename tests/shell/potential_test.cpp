@@ -1,6 +1,7 @@
 // The sum of all energies: derivatives across elements, loads and obstacles.
 #include "shell/potential.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -83,6 +84,81 @@ TEST(ShellPotential, DerivativesAtThreeSteps) {
     const Eigen::SparseMatrix<double> positive = potential.hessian(x, Curvature::positive);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen{MatrixXd(positive)};  // reads the lower half
     EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * eigen.eigenvalues()[eigen.eigenvalues().size() - 1]);
+  }
+}
+
+// Each term by itself, so that none hides behind a stiffer one; those that are added to the list are tested
+// here as they are.
+TEST(ShellPotential, EachTermOfTheListHasItsDerivatives) {
+  std::mt19937 engine(11);
+  const auto mesh = test::jittered(test::grid(4, 4, 1, 1), 0.25, 0.2, 5);
+  const Positions x = bulged(mesh);
+  for (const Bending bending : {Bending::quadratic, Bending::midedge}) {
+    const Shell shell = shell_of(mesh, bending, Stretching::stvk);
+    Conditions conditions(static_cast<std::size_t>(x.cols()));
+    for (const Edge& edge : shell.topology.edges)  // for pressure: a boundary that is held all round
+      if (edge.boundary())
+        for (const std::uint32_t v : edge.vertex) conditions.hold(v, x.col(v));
+    Loads loads;
+    loads.gravity << 1, -9.81, 0.3;
+    loads.pressure = 200;
+    loads.obstacles = {Sphere{{0.5, 0.5, -1.0}, 0.9}, Plane{{0, 0, -0.5}, {0, 0, 1}}};
+    loads.gap = 0.7;
+    loads.friction = 0.4;
+    loads.slip = 0.02;
+    const Vector3d origin(0.3, 0.2, 0.1);
+    std::vector<std::string> names;
+    for (auto& term : Potential::all_terms(shell, conditions, loads, origin)) {
+      names.emplace_back(term->name());
+      SCOPED_TRACE(names.back());
+      const bool linear = term->linear();
+      Potential::Terms alone;
+      alone.push_back(std::move(term));
+      Potential potential(shell, conditions, std::move(alone));
+      potential.look_up(x, true);
+      Positions slipped = x;  // by half of the slip length: friction pulls
+      for (Eigen::Index v = 0; v < x.cols(); ++v)
+        if (!conditions.held(0, v)) slipped(0, v) += 0.5 * loads.slip;
+      const auto moved = [&](const VectorXd& by) {
+        Positions there = slipped;
+        potential.advance(there, by, 1);
+        return there;
+      };
+      VectorXd gradient;
+      const double energy = potential.value(slipped, &gradient).energy;
+      // Bending takes another way where no gradient is asked for: rounding of some hundred summands.
+      EXPECT_NEAR(potential.parts(slipped).front().energy, energy, 1e-13 * std::abs(energy));
+      EXPECT_GT(gradient.norm(), 0) << "nothing is tested";
+      const VectorXd zero = VectorXd::Zero(potential.unknowns());
+      test::expect_derivative(
+          [&](const VectorXd& by) { return Eigen::Matrix<double, 1, 1>(potential.value(moved(by)).energy); },
+          [&](const VectorXd& d) { return Eigen::Matrix<double, 1, 1>(gradient.dot(d)); }, zero, 0.01,
+          engine);
+      const MatrixXd hessian =
+          MatrixXd(potential.hessian(slipped, Curvature::exact)).selfadjointView<Eigen::Lower>();
+      EXPECT_EQ(hessian.norm() == 0, linear);
+      if (linear) continue;
+      test::expect_derivative(
+          [&](const VectorXd& by) {
+            VectorXd g;
+            potential.value(moved(by), &g);
+            return g;
+          },
+          [&](const VectorXd& d) { return VectorXd(hessian * d); }, zero, 0.01, engine);
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen{
+          MatrixXd(potential.hessian(slipped, Curvature::positive))};  // reads the lower half
+      const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+      EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * largest);  // rounding of as many eigenvalues
+    }
+    EXPECT_THAT(names, testing::IsSupersetOf({"stretching", "bending", "dead loads", "contact", "pressure"}));
+    Potential all(shell, conditions, loads, origin);
+    all.look_up(x, true);
+    double parts = 0;
+    for (const auto& part : all.parts(x)) parts += std::abs(part.energy);
+    const auto value = all.value(x);
+    double together = 0;
+    for (const auto& part : all.parts(x)) together += part.energy;
+    EXPECT_NEAR(together, value.energy, 1e-13 * parts);  // the order of some hundred summands
   }
 }
 

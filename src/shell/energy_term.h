@@ -1,0 +1,106 @@
+// One term of a shell's potential energy: what the sum of all of them (potential.h) asks of it. A term is a
+// class in a file of its own, term_NAME.cpp, and a line in the list of terms (energy_terms.h); nothing else
+// knows it.
+//
+// Energies are in J, gradients (forces that the shell would need to stay) in N, Hessians in N/m. A load that
+// turns with the shell is a term where it has an energy, as pressure has.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "shell/bending_midedge.h"
+#include "shell/statics.h"
+
+namespace plisse::shell {
+
+class EnergyTerm {
+ public:
+  EnergyTerm() = default;
+  EnergyTerm(const EnergyTerm&) = delete;
+  EnergyTerm& operator=(const EnergyTerm&) = delete;
+  virtual ~EnergyTerm() = default;
+
+  virtual std::string_view name() const = 0;  // as messages call it
+
+  // Its Hessian is 0 everywhere, so nobody asks for it.
+  virtual bool linear() const { return false; }
+  // What its energy lacks beside the one from the world's origin, J (TermInput::origin).
+  virtual double offset() const { return 0; }
+
+  // For terms that go by something looked up earlier, as friction goes by the forces of contact: look_up()
+  // is called before the first step (`first`) and every few steps, and may change the energy.
+  virtual bool lags() const { return false; }
+  virtual void look_up(const Positions&, bool /*first*/) {}
+  // J: the part of its energy that is work against friction since the anchors.
+  virtual double friction(const Positions&) const { return 0; }
+  virtual std::vector<Positions> anchors(const Positions&) const { return {}; }  // as Loads::anchors
+
+  // The share, at most 1, of a straight way that a vertex may go: for energies that are infinite somewhere.
+  virtual double safe_share(const Eigen::Vector3d& /*from*/, const Eigen::Vector3d& /*to*/) const {
+    return 1;
+  }
+};
+
+// A sum over elements, each a function of the places of a few vertices.
+template <int Vertices>
+class ElementTerm : public EnergyTerm {
+ public:
+  using Gradient = Eigen::Matrix<double, 3 * Vertices, 1>;
+  using Hessian = Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>;
+  // The energy of one element; its derivatives by x₀ y₀ z₀ x₁ … are written where asked for. Of
+  // Curvature::positive only the Hessian is different: faces and flaps leave out what may have negative
+  // curvature; of vertices the sum takes the convex part of what all terms give together.
+  virtual double element(std::uint32_t index, const Positions& x, Gradient* gradient, Hessian* hessian,
+                         Curvature curvature) const = 0;
+};
+using VertexTerm = ElementTerm<1>;  // an element each vertex that has faces
+using FaceTerm = ElementTerm<3>;    // each face: its corners
+// Each face: its corners, then the vertices across its edges. Rows of a vertex that is not there are 0, those
+// of one beyond a mirror are by the corner that it mirrors.
+using FlapTerm = ElementTerm<6>;
+
+// Sums, of which rounding and the scale of forces are known.
+struct EnergySum {
+  double energy = 0;    // J
+  double summands = 0;  // J: their absolute values; what rounding is relative to
+  void count(double part) {
+    energy += part;
+    summands += std::abs(part);
+  }
+};
+struct ForceSum {
+  Positions force, size;  // 3×V, N: the gradient, and its summands' absolute values
+  void push(std::uint32_t vertex, const Eigen::Vector3d& gradient) {
+    force.col(vertex) += gradient;
+    size.col(vertex) += gradient.cwiseAbs();
+  }
+};
+
+// One function of all vertices.
+class ShellTerm : public EnergyTerm {
+ public:
+  // Adds its energy; its gradient where `forces` is given.
+  virtual void add(const Positions& x, EnergySum& energy, ForceSum* forces) const = 0;
+  // Its Hessian is the sum of two parts. One is the same for all positions and for x, y and z: V×V,
+  // symmetric, positive semidefinite; nothing: there is none.
+  virtual const Eigen::SparseMatrix<double>* constant_hessian() const { return nullptr; }
+  // The other is a sum over faces: adds that of one, by its corners.
+  virtual void add_face_hessian(std::uint32_t /*face*/, const Positions& /*x*/, Curvature,
+                                Matrix9& /*hessian*/) const {}
+};
+
+// What terms are made from; they keep the references.
+struct TermInput {
+  const Shell& shell;
+  const Conditions& conditions;
+  const Loads& loads;
+  Eigen::Vector3d origin;               // where dead forces have no energy, and near the shell
+  const Eigen::VectorXd& vertex_areas;  // m², at rest; good while terms are made, not after
+};
+
+}  // namespace plisse::shell
