@@ -51,8 +51,8 @@ FlatMesh delaunay_mesh(const sizing::Polyline& outline, const std::vector<sizing
   double per_edge = edges_per_length(area_of(outline, holes), around - sewn, vertices);
 
   sizing::Panel panel;
-  panel.fabric = *sizing::find_fabric(sizing::fabrics().front().name);
-  panel.fabric.warp = panel.fabric.weft;  // alike in both directions
+  panel.fabric = *sizing::find_fabric("wine-style");  // any would do: edges are scaled to the vertices
+  panel.fabric.warp = panel.fabric.weft;              // alike in both directions
   sizing::SizingOptions options;
   options.seed = seed;
   const double edge = sizing::fabric_resolution(options.law, panel.fabric.weft);
