@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "config/profiles.h"
+#include "mesh/wave_profiles.h"
 
 namespace plisse::config {
 namespace {

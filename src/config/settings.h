@@ -38,7 +38,7 @@ struct WrinkleSettings {
   std::filesystem::path wavelength_map;    // a picture in uv, or a PLY with a wavelength a vertex; or none
   double wavelength_low = 0;               // metres: where the picture is black; 0: half the wavelength
   double strength = 1;                     // multiplies h
-  std::string profile = "sinusoid";        // of config/profiles.h, or FILE
+  std::string profile = "sinusoid";        // of mesh/wave_profiles.h, or FILE
   std::vector<std::string> only, exclude;  // names of meshes or materials
   double dead_zone = 0.005;                // of 1 − r, ≥ 1e-4
   double irregularity = 0;                 // 0…1: seeded noise, ±25 % of wavelength, phase and height at 1

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "config/profiles.h"
+#include "mesh/wave_profiles.h"
 
 namespace plisse::passes {
 namespace {
@@ -25,7 +25,7 @@ std::vector<double> read_table(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
     fail(fmt::format("profile '{}': neither {}, and no such file can be read", path,
-                     fmt::join(config::wave_profile_names(), " nor ")));
+                     fmt::join(wave_profile_names(), " nor ")));
   }
   std::vector<double> values;
   std::string line;
@@ -86,7 +86,7 @@ Profile make_profile(const std::string& name) {
       profile.derivative[static_cast<std::size_t>(i)] = derivative(phase);
     }
   };
-  if (const config::WaveProfile* known = config::find_wave_profile(name)) {
+  if (const WaveProfile* known = find_wave_profile(name)) {
     fill(known->f, known->derivative);
   } else {
     const std::vector<double> table = normalised_table(name);

@@ -22,7 +22,7 @@ struct Profile {
 // cloth is as long as before, to second order in the slopes (docs/passes.md, "Finer waves").
 Profile with_finer_waves(Profile profile, int waves, double share);
 
-// One of config/profiles.h by its name, or a text file of numbers, one period of f from its crest on, evenly
+// One of mesh/wave_profiles.h by its name, or a text file of numbers, one period of f from its crest on, evenly
 // spaced. Throws Error(bad_input) with file and line: not
 // a number, fewer than 4 or more than 65536, not even, constant. A table is scaled to −1…1.
 Profile make_profile(const std::string& name);

@@ -1,10 +1,10 @@
-#include "config/profiles.h"
+#include "mesh/wave_profiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace plisse::config {
+namespace plisse {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -41,4 +41,4 @@ std::vector<std::string> wave_profile_names() {
   return names;
 }
 
-}  // namespace plisse::config
+}  // namespace plisse

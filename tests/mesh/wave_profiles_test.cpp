@@ -1,12 +1,12 @@
 // The shapes of waves: what passes and closed forms ask of each.
-#include "config/profiles.h"
+#include "mesh/wave_profiles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace plisse::config {
+namespace plisse {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -38,4 +38,4 @@ TEST(Profiles, UnknownNamesHaveNone) {
 }
 
 }  // namespace
-}  // namespace plisse::config
+}  // namespace plisse

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plisse::config {
+namespace plisse {
 
 // f and its derivative by the phase, for phases from −π to π. f is even, because the sign of a direction is
 // not determined, 1 at the crest (0), and −1 at ±π. Where two flanks meet in a crease the derivative is 0.
@@ -21,4 +21,4 @@ const std::vector<WaveProfile>& wave_profiles();
 const WaveProfile* find_wave_profile(std::string_view name);  // nothing: there is none of this name
 std::vector<std::string> wave_profile_names();
 
-}  // namespace plisse::config
+}  // namespace plisse
