@@ -93,9 +93,9 @@ class Reader {
     for (auto word = next_word(rest); !word.empty() && !word.starts_with('#'); word = next_word(rest)) {
       std::array<std::string_view, 3> parts;
       for (std::string_view& part : parts) {
-        const std::size_t slash = std::min(word.find('/'), word.size());
+        const std::size_t slash = word.find('/');
         part = word.substr(0, slash);
-        word.remove_prefix(std::min(slash + 1, word.size()));
+        word = slash == std::string_view::npos ? std::string_view() : word.substr(slash + 1);
       }
       if (parts[0].empty()) fail("a corner names no vertex");
       Corner& corner = corners_.emplace_back(Corner{index(parts[0], file_.positions.size(), "vertex")});
@@ -156,8 +156,10 @@ ObjFile read_obj(const std::filesystem::path& path, const ObjWanted& wanted) {
 
 std::string read_obj_text(const std::filesystem::path& path) {
   std::string text = read_whole_text(path);
-  for (std::size_t i = text.find("\\\n"); i != std::string::npos; i = text.find("\\\n", i))
-    text.replace(i, 2, " \f");
+  for (std::size_t i = text.find("\\\n"); i != std::string::npos; i = text.find("\\\n", i)) {
+    text[i] = ' ';
+    text[i + 1] = '\f';
+  }
   return text;
 }
 
