@@ -10,7 +10,7 @@ namespace plisse::gpu {
 
 Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
   glCreateBuffers(1, &id_);
-  // A buffer of no bytes is an error in OpenGL, and a mesh without neighbours is not.
+  // OpenGL does not allow a buffer of 0 bytes, but a mesh may have no neighbours.
   const GLsizeiptr size = static_cast<GLsizeiptr>(bytes ? bytes : 16);
   glNamedBufferStorage(id_, size, bytes ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
   if (!data || !bytes) glClearNamedBufferData(id_, GL_R8, GL_RED, GL_UNSIGNED_BYTE, nullptr);
@@ -46,7 +46,7 @@ void Buffer::bind_items(int unit, Item item) const {
 }
 
 void Buffer::bind_storage(int binding) const {
-  if (!fits_storage_) {  // asked once a buffer: another device has another limit
+  if (!fits_storage_) {  // checked once for each buffer: another device may have another limit
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     if (bytes_ > static_cast<std::size_t>(most)) {

@@ -10,8 +10,8 @@ namespace plisse::gpu {
 class Buffer {
  public:
   Buffer() = default;
-  // `bytes` of storage, filled from `data` if given, zero otherwise. Throws Error(try_again) when memory is
-  // out.
+  // `bytes` of storage, filled from `data` if given, zero otherwise. Throws Error(try_again) when there is
+  // not enough memory.
   explicit Buffer(std::size_t bytes, const void* data = nullptr);
   template <typename Item>
   explicit Buffer(const std::vector<Item>& items) : Buffer(items.size() * sizeof(Item), items.data()) {}
@@ -30,9 +30,9 @@ class Buffer {
   }
   std::size_t bytes() const { return bytes_; }
   unsigned id() const { return id_; }
-  // As a list of items for a shader to fetch from (samplerBuffer). Software renderers gather from textures,
-  // but go through storage buffers lane by lane, which is five times slower; so what a shader only reads it
-  // fetches.
+  // Binds the buffer as a samplerBuffer, from which a shader fetches items. Software renderers read textures
+  // for all lanes at once, but storage buffers lane by lane, which is five times slower; so data that a
+  // shader only reads is fetched in this way.
   enum class Item { vec4, vec2, uvec4, uvec2, uint };
   void bind_items(int unit, Item item) const;
   void bind_storage(int binding) const;
@@ -54,7 +54,7 @@ class Buffer {
   unsigned id_ = 0;
   mutable unsigned items_ = 0;  // the texture over it, made when it is first bound
   std::size_t bytes_ = 0;
-  mutable bool fits_storage_ = false;  // found to be within the device's limit
+  mutable bool fits_storage_ = false;  // checked against the device's limit
 };
 
 }  // namespace plisse::gpu

@@ -41,8 +41,8 @@ const char* egl_error_text(EGLint code) {
   }
 }
 
-// epoxy ends the process when these are missing, so they are looked for before its first call. They stay
-// open: it wants them next.
+// epoxy ends the process when these libraries are missing, so they are opened before its first call. They
+// stay open, since epoxy uses them next.
 void require_library(const char* purpose, std::initializer_list<const char*> names, const char* package) {
   for (const char* name : names) {
     if (dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr) return;
@@ -105,7 +105,7 @@ struct Context::Handles {
     eglTerminate(display);
   }
 
-  // Empty if the context stands and is current, otherwise what went wrong.
+  // Empty if the context was made and is current, otherwise the error.
   std::string open(EGLDisplay candidate) {
     if (candidate == EGL_NO_DISPLAY) return fmt::format("no display: {}", egl_error_text(eglGetError()));
     EGLint major = 0, minor = 0;

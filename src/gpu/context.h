@@ -1,4 +1,4 @@
-// An OpenGL 4.5 core context without a window, through EGL. Knows nothing of wrinkles.
+// An OpenGL 4.5 core context without a window, through EGL.
 #pragma once
 
 #include <memory>
@@ -7,14 +7,14 @@
 
 namespace plisse::gpu {
 
-// What the driver calls itself, and how the context was made.
+// The driver's names, and how the context was made.
 struct Info {
   std::string vendor, renderer, version, path;
   bool software = false;  // rasterises on the CPU: time with a CPU clock, not with timer queries
 };
 
-// The current thread's context; one at a time. Throws Error(no_opengl) that lists every path tried, what it
-// said and which package helps.
+// The current thread's context; one at a time. Throws Error(no_opengl) that lists every path tried, its error
+// and the package that may help.
 class Context {
  public:
   // device: index of `list_devices`, −1 for the first that works.
@@ -30,10 +30,11 @@ class Context {
   Info info_;
 };
 
-// One line for every EGL device: index, and what it says of itself.
+// One line for every EGL device: its index and its own description.
 std::vector<std::string> list_devices();
 
-// Throws Error(try_again) with the name of the GL error, if one is pending; `where` says after what.
+// Throws Error(try_again) with the name of the GL error, if one is pending; `where` names the operation
+// before it.
 void check(const char* where);
 
 }  // namespace plisse::gpu

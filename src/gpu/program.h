@@ -13,7 +13,7 @@ class Program {
  public:
   Program() = default;
   // Files of shaders/ by their ending: one .comp, or .vert and .frag. Defines follow the #version line that
-  // this class writes. Throws Error(no_opengl) with the compiler's words.
+  // this class writes. Throws Error(no_opengl) with the compiler's message.
   Program(const std::vector<std::string>& files, const Defines& defines = {},
           const std::string& shader_folder = "");
   ~Program();
@@ -30,9 +30,8 @@ class Program {
   unsigned id_ = 0;
 };
 
-// Runs a compute program over `count` items in groups of `group_size`, in two dimensions where one does not
-// hold them: past 65,535 groups a driver may do nothing at all. Shaders use `item_index()` of
-// common/items.glsl.
+// Runs a compute program over `count` items in groups of `group_size`, in two dimensions where there are more
+// than 65,535 groups, for which a driver may do nothing. Shaders use `item_index()` of common/items.glsl.
 inline constexpr int group_size = 64;
 void dispatch(const Program& program, std::size_t count);
 

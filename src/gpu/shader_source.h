@@ -12,8 +12,9 @@ struct EmbeddedShader {
 };
 const std::vector<EmbeddedShader>& embedded_shaders();
 
-// A file's text with its `#include "…"` lines (relative to shaders/) put in place, each file once. `folder`
-// overrides the embedded text; empty: embedded. Throws Error(bad_input) naming the file that is missing.
+// A file's text with its `#include "…"` lines (relative to shaders/) replaced by the files, each file once.
+// `folder` overrides the embedded text; empty: embedded. Throws Error(bad_input) naming the file that is
+// missing.
 std::string shader_source(const std::string& name, const std::string& folder = "");
 
 }  // namespace plisse::gpu

@@ -1,4 +1,4 @@
-// Where frames are drawn: colour and depth, multisampled if asked, resolved and read back.
+// The target of drawing: colour and depth, with or without multisampling, resolved and read back.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;  // pixels, from the lower left corner
   bool empty() const { return width <= 0 || height <= 0; }
   bool operator==(const Rectangle&) const = default;
-  // The least that holds both; neither may be empty.
+  // The smallest rectangle that contains both; neither may be empty.
   Rectangle united(const Rectangle& other) const {
     const int left = std::min(x, other.x), low = std::min(y, other.y);
     return {left, low, std::max(x + width, other.x + other.width) - left,
@@ -35,7 +35,7 @@ class Target {
   int samples() const { return samples_; }
   void bind() const;
   void bind_resolved()
-      const;  // to draw without samples of its own: before `resolve` beside it, after it on top
+      const;  // to draw without multisampling: before `resolve` outside its rectangle, after it on top
   // Averages the samples of one rectangle (the rest of the resolved picture keeps what was drawn there).
   void resolve(const Rectangle& area) const;
   // Rows from top to bottom. Reads the resolved picture.

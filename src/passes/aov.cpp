@@ -31,7 +31,7 @@ vec3 compression(const vec3& value, float) {
   return value.x >= 0 ? vec3(0.75F, 0.75F - 2 * value.x, 0.75F - 2 * value.x)
                       : vec3(0.75F + 2 * value.x, 0.75F + 2 * value.x, 0.75F);
 }
-// Hues far apart for numbers that follow each other.
+// Very different hues for consecutive numbers.
 vec3 number(const vec3& value, float) {
   const float hue = 6.2831853F * std::fmod(value.x * 0.61803399F, 1.0F);
   return {0.55F + 0.4F * std::cos(hue), 0.55F + 0.4F * std::cos(hue - 2.0944F),

@@ -1,6 +1,5 @@
-// Arbitrary output variables: the quantities of the drawn surface that a picture can hold in place of
-// colours. One table says all about each: to add one, give it a name here, a row in aov.cpp and a line in
-// render.frag.
+// Arbitrary output variables: quantities of the drawn surface that a picture can hold instead of colours. To
+// add one: a name here, a row of the table in aov.cpp, and a line in render.frag.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -14,16 +14,16 @@ namespace plisse::passes {
 
 class DisplacementPass {
  public:
-  // `fine`: of the surface that will be shown. `cavity` and `smooth_blend` as in Look; `field`: whether the
-  // surface carries one. Throws Error(try_again) when memory is out.
+  // `fine`: the subdivision of the surface that will be shown. `cavity` and `smooth_blend` as in Look;
+  // `field`: whether the surface carries one. Throws Error(try_again) when there is not enough memory.
   DisplacementPass(const Subdivision& fine, const Profile& profile, bool smooth_blend, bool field,
                    double cavity, const std::string& shader_folder);
-  // Reads what skin, crush and relax left in `surface`; writes positions, relief and normals of `fine`, which
-  // are those of the subdivision. Throws Error(check_failed) where something is not finite.
+  // Reads the results of skin, crush and relax in `surface`; writes positions, relief and normals of `fine`,
+  // the surface of the subdivision. Throws Error(check_failed) where something is not finite.
   void run(const SurfaceBuffers& surface, SurfaceBuffers& fine);
 
  private:
-  // Which points are one vertex: entry i of row v lies at offsets[v] ≤ i < offsets[v + 1].
+  // The points that belong to one vertex: the entries of row v are at offsets[v] ≤ i < offsets[v + 1].
   struct Rows {
     gpu::Buffer offsets, points;
   };

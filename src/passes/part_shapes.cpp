@@ -63,7 +63,7 @@ gpu::Rectangle PartShapes::Posed::covered(std::size_t part) const {
 }
 
 bool PartShapes::Posed::waves_are_too_fine(std::size_t part) const {
-  constexpr double enough = 0.6;  // turns a pixel; at half a turn a wave is gone from the normal
+  constexpr double enough = 0.6;  // turns a pixel; from half a turn on a wave has no effect on the normal
   if (waves_.empty()) {
     waves_ = surface_->waves.read<glm::vec4>();
     world_waves_ = surface_->world_waves.read<glm::vec4>();

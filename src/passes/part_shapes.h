@@ -1,5 +1,5 @@
-// Where the parts of a surface are on the picture, and how long their waves are there: what decides, on a
-// software renderer, which of them need drawing and how.
+// The position of a surface's parts in the picture and the length of their waves there. On a software
+// renderer these decide which parts need to be drawn, and how.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,16 @@ class PartShapes {
   // One frame of it; reads buffers back.
   class Posed {
    public:
-    // Holds all that the part draws, lines on its edges included: nothing where it is all on the other side
-    // of one of the four planes through the eye, or behind it; the whole picture where only a part is behind.
+    // A rectangle around everything that the part draws, lines on its edges included. Empty where the part is
+    // completely outside one of the four planes through the eye, or behind the eye; the whole picture where
+    // some of it is behind the eye.
     gpu::Rectangle covered(std::size_t part) const;
 
-    // Whether each wave of each of its triangles is shorter than two pixels wherever it is seen, with some
-    // air: shaders take differences over whole pixels. Where X → s is the way from space to pixels, J =
-    // ds/dX, and g the gradient of a wave's turns in the plane of its triangle, a step along g changes s by
-    // |J g| ≤ |J||g| and the turns by |g|², so that turns grow by at least |g|/|J| a pixel. Of J at s and w,
-    // with rows r of the projection, |r_x − s_x r_w|/w: the largest over a triangle is at its corners.
+    // Whether all waves of all its triangles are shorter than two pixels everywhere, with a margin, as
+    // shaders use differences over whole pixels. With X → s the map from space to pixels, J = ds/dX, and g
+    // the gradient of a wave's turns in the plane of its triangle, a step along g changes s by |J g| ≤ |J||g|
+    // and the turns by |g|², so that turns grow by at least |g|/|J| a pixel. Of J at s and w, with rows r of
+    // the projection, |r_x − s_x r_w|/w: the largest over a triangle is at its corners.
     bool waves_are_too_fine(std::size_t part) const;
 
    private:
@@ -40,7 +41,7 @@ class PartShapes {
     glm::dmat4 view_projection_{1};
     int width_ = 0, height_ = 0;
     std::vector<glm::vec4> positions_;
-    mutable std::vector<glm::vec4> waves_, world_waves_;  // read when they are first wanted
+    mutable std::vector<glm::vec4> waves_, world_waves_;  // read back at their first use
   };
   Posed posed(const SurfaceBuffers& surface, const glm::dmat4& view_projection, int width, int height) const;
 

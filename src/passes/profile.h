@@ -18,13 +18,13 @@ struct Profile {
   double coarse = 1, fine = 0;
 };
 
-// The profile with finer waves on its own, `waves` to each, `share` times as steep; both shrink so that the
-// cloth is as long as before, to second order in the slopes (docs/passes.md, "Finer waves").
+// The profile with finer waves added: `waves` of them on each wave, `share` times as steep. Both are scaled
+// so that the cloth's length is unchanged to second order in the slopes (docs/passes.md, "Finer waves").
 Profile with_finer_waves(Profile profile, int waves, double share);
 
-// One of mesh/wave_profiles.h by its name, or a text file of numbers, one period of f from its crest on, evenly
-// spaced. Throws Error(bad_input) with file and line: not
-// a number, fewer than 4 or more than 65536, not even, constant. A table is scaled to −1…1.
+// A profile of mesh/wave_profiles.h by its name, or a text file of numbers: one period of f at even
+// distances, beginning at the crest. Throws Error(bad_input) with file and line: not a number, fewer than 4
+// or more than 65536, not even, constant. A table is scaled to −1…1.
 Profile make_profile(const std::string& name);
 
 }  // namespace plisse::passes

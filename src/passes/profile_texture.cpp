@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned unit = 1;
 
-// Whether the profile is the one that the shaders have without a table.
+// Whether the shaders can compute the profile without a table.
 bool is_sinusoid(const Profile& profile) {
   for (std::size_t i = 0; i < profile.f.size(); ++i) {
     const double phase =
@@ -53,7 +53,7 @@ gpu::Defines wave_defines(const Profile& profile, bool smooth_blend) {
   gpu::Defines defines;
   if (!smooth_blend) defines.emplace_back("LINEAR_BLEND", "1");
   if (profile.fine_waves > 0) {
-    // Their decimals: a uniform that every pixel reads costs more.
+    // Written into the shader as decimals: a uniform that every pixel reads costs more.
     defines.emplace_back("FINE_WAVES", fmt::format("{}.0", profile.fine_waves));
     defines.emplace_back("COARSE_SHARE", fmt::format("{:.9e}", profile.coarse));
     defines.emplace_back("FINE_SHARE", fmt::format("{:.9e}", profile.fine));

@@ -1,4 +1,4 @@
-// A profile as the shaders look it up (shaders/common/waves.glsl), and what they are compiled for.
+// A profile as a texture for the shaders (shaders/common/waves.glsl), and the shaders' defines for it.
 #pragma once
 
 #include "gpu/program.h"
@@ -12,7 +12,7 @@ class ProfileTexture {
   ~ProfileTexture();
   ProfileTexture(const ProfileTexture&) = delete;
   ProfileTexture& operator=(const ProfileTexture&) = delete;
-  void bind() const;  // where common/waves.glsl expects it
+  void bind() const;  // to the unit of common/waves.glsl
 
  private:
   unsigned id_ = 0;

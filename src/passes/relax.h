@@ -22,14 +22,15 @@ class RelaxPass {
   explicit RelaxPass(const std::string& shader_folder);
   // Reads positions, world_waves and surface.counter (the fresh vertices); advances phases.
   void run(SurfaceBuffers& surface, const RelaxOptions& options);
-  // Whether crush found no vertex that waves: run would change nothing.
+  // Whether crush found no vertex with a wave: then run would change nothing.
   static bool idle(const SurfaceBuffers& surface);
-  // Moves the phases of set vertices by a fraction of their distance to those of another moment (its phases
-  // and states), with which a loop closes.
+  // Moves the phases of set vertices by a fraction of their distance to the phases of another moment, given
+  // by its phases and states; used to close a loop.
   void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction);
-  // Fresh vertices that have a phase in that other moment begin with it, and are set.
+  // Fresh vertices that have a phase in that other moment take it and are set.
   void begin_as(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states);
-  // Vertices that got a phase in the last run: no work is done for them when there are none.
+  // The number of vertices that got their first phase in the last run; the onset is skipped when there are
+  // none.
   std::uint32_t fresh_in_last_run() const { return fresh_; }
 
  private:
@@ -37,7 +38,7 @@ class RelaxPass {
   void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction,
             bool fresh_ones);
   void round(const gpu::Program& program,
-             SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps
+             SurfaceBuffers& surface);  // reads phases, writes phases_next, swaps both
   void smooth(SurfaceBuffers& surface, int rounds);
   gpu::Program descent_, spread_, rotors_, smooth_, finish_, lead_;
   gpu::Buffer numbers_, numbers_next_, rotor_list_;  // made at the first onset

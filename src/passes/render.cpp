@@ -68,19 +68,20 @@ bool has_holes(const DrawPart& part) {
   return part.has_alpha || part.alpha_cutoff > 0;
 }
 
-// What the material of a part needs beyond the plain shader; each costs time, so only those who use it pay.
+// Features that a part's material needs beyond the plain shader; each costs time, so a shader has only those
+// it uses.
 constexpr unsigned with_alpha = 1, with_normal_map = 2, with_colours = 4, with_texture = 8;
 unsigned features_of(const DrawPart& part) {
   return (has_holes(part) ? with_alpha : 0U) | (part.normal_texture >= 0 ? with_normal_map : 0U) |
          (part.has_colours ? with_colours : 0U) | (part.texture >= 0 ? with_texture : 0U);
 }
-// And what its waves do not need now.
+// Features that its waves do not need in this frame.
 constexpr unsigned without_waves = 16, faded_waves = 32;
 
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
   glm::dvec3 across, along, origin;
-  glm::dvec3 foot;  // straight below the model's centre: the middle of the map
+  glm::dvec3 foot;  // vertically below the model's centre: the middle of the map
   double side;
   explicit GroundFrame(const View& view) {
     const glm::dvec3 up = view.up;
@@ -92,13 +93,13 @@ struct GroundFrame {
   }
 };
 
-// The texels of the ground map that the model can darken, with `reach` more on each side for the blur: those
-// of the shadow of the sphere that its depth maps hold, and of what is below it. All others are zero.
+// The texels of the ground map that the model can darken, and `reach` more on each side for the blur: those
+// in the shadow of the sphere that the depth maps contain, and those below it. All others are zero.
 gpu::Rectangle darkened_texels(const GroundFrame& ground, const View& view, int size, int reach) {
   const glm::dvec3 light = view.lights[0].direction;
   const double radius = sphere_margin * view.bounds_radius, texel = ground.side / size;
   const double climb = glm::dot(light, view.up);
-  // A light at the height of the floor throws no end of shadow; one below it is left to the depth map.
+  // A light at the height of the floor would cast an endless shadow; for one below it the depth map decides.
   if (climb < 1e-3) return {0, 0, size, size};
   const glm::dvec3 shadow =
       view.bounds_centre + (view.floor - glm::dot(view.bounds_centre, view.up)) / climb * light;
@@ -273,7 +274,7 @@ void RenderPass::draw_ground_map(const View& view) {
     glUniform4i(program.uniform("area"), area.x, area.y, area.x + area.width, area.y + area.height);
     glBindImageTexture(0, result, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG16F);
     glDispatchCompute(static_cast<GLuint>(area.width + 7) / 8, static_cast<GLuint>(area.height + 7) / 8, 1);
-    // Fetched by the next pass and the backdrop, written over, cleared, read back.
+    // Barriers for: the next pass and the backdrop, which fetch it; overwriting, clearing and reading back.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
   };
@@ -313,7 +314,7 @@ void RenderPass::draw_backdrop(const View& view, bool under) {
   glBindTextureUnit(3, ground_textures_[0]);
   glDisable(GL_DEPTH_TEST);
   if (under) glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // what is there has premultiplied colours
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // the colours in the target are premultiplied
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_BLEND);
 }
@@ -347,7 +348,7 @@ void RenderPass::draw_parts(Programs& programs, bool blended, bool as_shown) {
     unsigned features = features_of(part);
     if (as_shown && shown_[i].waves != Detail::full) {
       features |= shown_[i].waves == Detail::none ? without_waves : faded_waves;
-      // Compiled when it is first wanted: most runs want one of each.
+      // Compiled at its first use: most runs need only one of each kind.
       if (!programs.contains(features))
         programs.emplace(features, make_program(surface_files(), picture_defines(), features));
     }
@@ -373,7 +374,7 @@ void RenderPass::draw_parts(Programs& programs, bool blended, bool as_shown) {
       glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * part.first_triangle),
                    static_cast<GLsizei>(3 * part.triangle_count));
     };
-    // The far wall of a veil lies behind its near one.
+    // Draws back faces first: the far side of a veil is behind its near side.
     if (blended && part.two_sided) {
       draw_side(-1);
       draw_side(1);

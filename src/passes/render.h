@@ -32,7 +32,7 @@ struct View {
   glm::dvec3 eye{0, 0, 1}, forward{0, 0, -1}, up{0, 1, 0};
   std::array<DirectionalLight, 3> lights;  // key, fill, rim
   glm::dvec3 ambient{0.3};
-  glm::dvec3 bounds_centre{0};  // of the whole clip: what the key light's map has to cover
+  glm::dvec3 bounds_centre{0};  // of the whole clip: the key light's map must contain it
   double bounds_radius = 1;
   double floor = 0;  // height of the ground along up
 };
@@ -42,7 +42,7 @@ struct Look {
   bool plain = false;      // no waves at all
   bool field = false;      // the surface carries a solved wrinkle field (VertexWaves::field)
   bool displaced = false;  // the surface is a displaced one (DisplacementPass); without waves of its own
-  bool phong = false;      // with plain: textured Phong, the yardstick of the benchmark
+  bool phong = false;      // with plain: textured Phong, for comparison in the benchmark
   bool shadows = false, ground = false, wireframe = false;
   double roughness = 0.75, cavity = 1.2, parallax = 1, sheen = 0.15;
   glm::dvec3 background{0.6};  // linear
@@ -62,13 +62,13 @@ struct DrawPart {
   bool wrinkles = true;  // some vertex of it can have waves
 };
 
-// What a draw left out without a change to the picture, in parts.
+// The number of parts for which a draw left work out, without a change to the picture.
 struct LeftOut {
-  bool nothing_in_view = false;  // found only on a software renderer, as the next two are
+  bool nothing_in_view = false;  // determined only on a software renderer, like the next two
   int out_of_view = 0;
-  int too_fine = 0;    // every wave is shorter than two pixels: only roughness shows them
+  int too_fine = 0;    // every wave is shorter than two pixels: only the roughness represents them
   int flat = 0;        // no wave anywhere
-  int untextured = 0;  // no parallax: there is nothing that it would shift
+  int untextured = 0;  // no parallax, as there is no texture to shift
 };
 
 class RenderPass {
@@ -79,23 +79,24 @@ class RenderPass {
   RenderPass(const RenderPass&) = delete;
   RenderPass& operator=(const RenderPass&) = delete;
 
-  // Clears, draws, resolves, and puts the backdrop under it. The backdrop takes one sample a pixel, as
-  // nothing of it has an edge. A software renderer pays for every multisampled pixel: there (`software`) only
-  // the rectangle that the surface covers is drawn with four; the picture is the same. False where it was
-  // found that nothing of the surface is in view: then only what is behind it, and its shadow, was drawn.
+  // Clears, draws, resolves, and puts the backdrop under the surface. The backdrop is drawn with one sample a
+  // pixel, as it has no edges. On a software renderer every multisampled pixel costs time: there (`software`)
+  // only the rectangle that the surface covers has four samples; the picture is the same. Returns false where
+  // nothing of the surface is in view: then only the backdrop and the shadow were drawn.
   bool draw(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, bool software);
-  // The same picture with nothing left out: what `draw` is held against.
+  // The same picture with nothing left out, to be compared with `draw`.
   void draw_all(const SurfaceBuffers& surface, const View& view, const gpu::Target& target);
-  // By the last draw.
+  // Of the last draw.
   const LeftOut& left_out() const { return left_out_; }
-  // One quantity as floats into an unsampled rgba32f target; alpha 1 where the surface is.
+  // One quantity as floats into an rgba32f target without multisampling; alpha 1 where the surface is.
   void draw_aov(const SurfaceBuffers& surface, const View& view, const gpu::Target& target, Aov aov);
 
-  // From now on as Look::transparent says.
+  // Sets Look::transparent from now on.
   void set_transparent(bool transparent) { look_.transparent = transparent; }
 
-  // What the last draw took shadows from (docs/passes.md, "Depth maps", "Ground"), rows from bottom to top:
-  // the key light's depth map, that from below, and the shares of light and sky that the ground loses.
+  // The maps from which the last draw took shadows (docs/passes.md, "Depth maps", "Ground"), rows from bottom
+  // to top: the key light's depth map, that from below, and the shares of light and sky that the ground
+  // loses.
   static constexpr int shadow_size = 1024, below_size = 512, ground_size = 256;
   std::vector<float> shadow_map() const;
   std::vector<float> map_from_below() const;
@@ -111,19 +112,20 @@ class RenderPass {
   void draw_shadow_map(const SurfaceBuffers& surface, const View& view);
   void draw_ground_map(const View& view);
   void clear(bool with_depth);
-  // `under`: under what is drawn already. Not under veils: what their alpha leaves of it is rounded to steps
-  // of 1/255, which shows in the dark.
+  // `under`: behind what is drawn already. Not possible with blended parts: the remaining share of the
+  // backdrop is rounded to steps of 1/255, which is visible in dark places.
   void draw_backdrop(const View& view, bool under);
   bool has_veils() const;  // parts that are blended
   // A program for every set of features that the parts' materials need (render.cpp, features_of).
   using Programs = std::map<unsigned, gpu::Program>;
-  gpu::Defines surface_defines() const;  // what the surface's programs are compiled for
-  gpu::Defines picture_defines() const;  // and those of pictures besides
+  gpu::Defines surface_defines() const;  // defines of the surface's programs
+  gpu::Defines picture_defines() const;  // and of programs for pictures
   Programs make_programs(const std::vector<std::string>& files, const gpu::Defines& defines) const;
   gpu::Program make_program(const std::vector<std::string>& files, gpu::Defines defines,
                             unsigned features) const;
   std::vector<std::string> surface_files() const;
-  // Which parts are drawn now, and how much of their waves. The rectangle that they cover.
+  // Decides which parts are drawn in this frame, and with which detail of waves. Returns the rectangle that
+  // they cover.
   gpu::Rectangle choose(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                         bool software);
   const PartShapes& shapes_of(const SurfaceBuffers& surface);
@@ -132,7 +134,8 @@ class RenderPass {
     bool in_view = true;
     Detail waves = Detail::full;
   };
-  // Opaque and masked parts, or blended ones; `as_shown`: those alone that `choose` has chosen, as it has.
+  // Draws opaque and masked parts, or blended ones; `as_shown`: only those that `choose` selected, with its
+  // detail.
   void draw_parts(Programs& programs, bool blended, bool as_shown);
   unsigned depth_map(unsigned& framebuffer, int size);
 
@@ -148,7 +151,7 @@ class RenderPass {
   unsigned vertex_array_ = 0;
   unsigned shadow_texture_ = 0, shadow_framebuffer_ = 0, top_texture_ = 0, top_framebuffer_ = 0;
   std::array<unsigned, 2> ground_textures_{};
-  gpu::Rectangle ground_area_{0, 0, -1, -1};  // what of them is not zero
+  gpu::Rectangle ground_area_{0, 0, -1, -1};  // the texels that are not zero
   glm::dmat4 shadow_matrix_{1}, top_matrix_{1};
   double shadow_texel_ = 0;
   std::vector<Shown> shown_;  // one a part

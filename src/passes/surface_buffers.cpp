@@ -33,7 +33,7 @@ struct GpuPlace {
 };
 
 // (S + μE)⁻¹ with S = Σ v⊗v and μ = 1e-6 trace S, in double precision: it depends on the rest pose alone.
-// Zero where no neighbour tells anything: M is then the identity.
+// Zero where no neighbour has a length: M is then the identity.
 glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   glm::dmat2 s(0.0);
   for (const auto* v = begin; v != end; ++v) s += glm::outerProduct(*v, *v);
@@ -171,7 +171,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
 
 SurfaceBuffers::SurfaceBuffers(const Surface& surface, const Subdivision& fine)
     : vertex_count(fine.position_count), target_count(0), triangle_count(fine.triangle_count()) {
-  // The shaders' world in place of tangent frames: a normal's components are then its coordinates.
+  // World axes instead of tangent frames: a normal's components are then its coordinates.
   frames = gpu::Buffer(mapped(2 * vertex_count, [](std::size_t i) {
     return i % 2 == 0 ? glm::vec4(0, 0, 1, 0) : glm::vec4(1, 0, 0, 0);
   }));

@@ -1,5 +1,5 @@
-// The welded surface on the GPU: what never changes, what a frame computes, and the memory from frame to
-// frame. Layouts are those of shaders/common/surface.glsl; bindings are given there and in each shader.
+// The welded surface on the GPU: constant data, data of the current frame, and state from frame to frame.
+// Layouts are those of shaders/common/surface.glsl; bindings are given there and in each shader.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 namespace plisse::passes {
 
 struct SurfaceBuffers {
-  // Throws Error(try_again) when memory is out. `seed` decides the phases at the start.
+  // Throws Error(try_again) when there is not enough memory. `seed` decides the phases at the start.
   SurfaceBuffers(const Surface& surface, const RestFrames& frames, const VertexWaves& waves,
                  const ModelUnits& units, std::uint32_t seed);
-  // A displaced surface: what it looks like comes by DisplacementPass, or by `show` where it was computed
-  // elsewhere; only Look::displaced draws it.
+  // A displaced surface. DisplacementPass writes its points and normals, or `show` where they were computed
+  // on the CPU; it is drawn only with Look::displaced.
   SurfaceBuffers(const Surface& surface, const Subdivision& fine);
   void show(const Subdivision& fine, const DisplacedSurface& displaced);
   // Another carried field, where the surface was made with one.
@@ -38,8 +38,8 @@ struct SurfaceBuffers {
   gpu::Buffer positions, frames, world_waves;
   // State over time (docs/contract.md).
   gpu::Buffer states, waves, phases;
-  // Work space of relax: the phases of the round before; how many vertices are fresh, whether all are idle,
-  // and, for render, whether any has a height (not known before crush has run: then it says so, too).
+  // Work space of relax: the phases of the round before; the number of fresh vertices, whether all are idle,
+  // and, for render, whether any has a height (taken as true before crush has run).
   gpu::Buffer phases_next, counter;
   bool any_height() const;
 

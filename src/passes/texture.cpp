@@ -37,7 +37,8 @@ TextureLevel halved(const TextureLevel& from) {
               &from.rgba[(static_cast<std::size_t>(sy) * static_cast<std::size_t>(from.width) +
                           static_cast<std::size_t>(sx)) *
                          4];
-          // Transparent texels still count a little, or a wholly transparent block would have no colour.
+          // Transparent texels have a small weight, since a completely transparent block would have no colour
+          // otherwise.
           const double weight = texel[3] / 255.0 + 1e-6;
           for (std::size_t c = 0; c < 3; ++c)
             colour[c] += weight * (from.srgb ? linear[texel[c]] : texel[c] / 255.0);

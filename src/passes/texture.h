@@ -13,7 +13,8 @@ struct TextureLevel {
 };
 
 // The image and its halves down to 1×1; 2×2 texels average in linear light, colours weighted by alpha.
-// Normals become shorter where they disagree, which flattens nothing: their slopes average.
+// Normals become shorter where they differ; this does not flatten them, since the quotients that give the
+// slopes are averaged.
 std::vector<TextureLevel> mip_levels(int width, int height, const std::vector<std::uint8_t>& rgba,
                                      bool srgb = true);
 

@@ -21,7 +21,7 @@ double noise(const Vector2d& place) {
   return fraction(52.9829189 * fraction(place.dot(Vector2d(0.06711056, 0.00583715)))) - 0.5;
 }
 
-// Where the rim of the map fades out: 0 on it and outside, 1 from .15 inward.
+// The fade at the map's border: 0 on it and outside, 1 from .15 inward.
 double inside(const Vector2d& place) {
   double product = 1;
   for (const double x : {place.x(), place.y(), 1 - place.x(), 1 - place.y()})
@@ -29,8 +29,8 @@ double inside(const Vector2d& place) {
   return product;
 }
 
-// What the floor leaves of the light, where the straight line from `near` to `far` and on comes down to it
-// from above; 1 elsewhere.
+// The share of the light that remains on the floor, where the line from `near` through `far` meets it from
+// above; 1 elsewhere.
 double floor_light(const Ground& ground, const GroundMap& map, const Vector3d& near, const Vector3d& far) {
   const Vector3d ray = far - near;
   const double above = near.dot(ground.up) - ground.floor, sinks = -ray.dot(ground.up);

@@ -1,5 +1,5 @@
-// Reference of what stands behind the surface (docs/passes.md, "Backdrop"): one colour, or a studio's floor
-// that runs into its wall without a seam, with the surface's shadows on it.
+// Reference of the backdrop (docs/passes.md, "Backdrop"): one colour, or a floor that passes into a wall
+// without a visible edge, with the surface's shadows on it.
 #pragma once
 
 #include <Eigen/Dense>

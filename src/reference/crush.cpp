@@ -1,4 +1,4 @@
-// Written with Eigen's decompositions where docs/passes.md has closed forms, so that each checks the other.
+// Uses Eigen's decompositions where docs/passes.md has closed forms, so that each checks the other.
 #include "reference/crush.h"
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double least_singular_value = 0.05;  // r_min
 
-// k moves toward this frame's k̂ by as much as k̂ is to be trusted (contract, state over time, rule 2).
-// An idle vertex's is as good as unset.
+// k moves toward this frame's k̂, by more the more certain k̂ is (docs/contract.md, "State over time", rule 2).
+// The direction of an idle vertex counts as unset.
 Vector2d updated_direction(const Vector2d& k, bool unset, const Vector2d& minimum, double gap) {
   if (unset) return gap > 0.01 ? minimum : k;
   return (k + std::min(gap / 0.01, 1.0) * (minimum - k)).normalized();

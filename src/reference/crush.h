@@ -1,6 +1,5 @@
-// Reference of the crush pass (Loviscach 2006, sections 4.2 and 5.1; docs/passes.md, "Crush"): how strongly
-// and in which direction the surface is compressed at every vertex, and the wave that takes up the lost
-// length.
+// Reference of the crush pass (Loviscach 2006, sections 4.2 and 5.1; docs/passes.md, "Crush"): strength and
+// direction of the compression at every vertex, and the wave that takes up the lost length.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,19 +17,19 @@ struct CrushSettings {
   bool smooth = true;        // relax mode `smooth`; false: `descent`, where every vertex is always set
 };
 
-// Carried from frame to frame.
+// State from frame to frame.
 struct CrushState {
   Eigen::Vector2d direction{0, 0};  // k in (t, b), unit; (0, 0) = unset
   Status status = Status::idle;
 };
 
 struct CrushResult {
-  Eigen::Matrix2d M;                  // (t, b) → (t', b')
-  double r = 1;                       // σ₂, the least stretch
-  double stretch = 1;                 // σ₁, the greatest stretch
-  double gap = 0;                     // g = (σ₁² − σ₂²)/(σ₁² + σ₂²)
-  Eigen::Vector2d minimum{0, 1};      // k̂ of this pose alone; its sign is as k's where k was set, else free
-  Eigen::Vector2d direction{0, 0};    // k, the new state
+  Eigen::Matrix2d M;                // (t, b) → (t', b')
+  double r = 1;                     // σ₂, the least stretch
+  double stretch = 1;               // σ₁, the greatest stretch
+  double gap = 0;                   // g = (σ₁² − σ₂²)/(σ₁² + σ₂²)
+  Eigen::Vector2d minimum{0, 1};    // k̂ of this pose alone; its sign is k's where k was set, else arbitrary
+  Eigen::Vector2d direction{0, 0};  // k, the new state
   Eigen::Vector2d wave_vector{0, 0};  // k' in (t', b'), of length 1/r for k = k̂
   Eigen::Vector2d wavenumber{0, 0};   // κ = k'/W, turns per length
   double height = 0;                  // h, a length
@@ -48,7 +47,7 @@ Eigen::Vector2d wave_vector(const Eigen::Matrix2d& M, const Eigen::Vector2d& k);
 // Eq. 2 with the dead zone: h/W of mask 1.
 double relative_height(double r, double dead_zone);
 
-// Everything of one vertex, from its regression onward.
+// The whole computation for one vertex, after its regression.
 CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mask,
                          const CrushSettings& settings, const CrushState& previous);
 
@@ -57,8 +56,8 @@ CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mas
 Eigen::Matrix2d biased(const Eigen::Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis,
                        const Eigen::Vector3d& p);
 
-// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is last frame's state; `bias`
-// has p of each vertex as columns, or none.
+// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is the state of the last frame;
+// `bias` has p of each vertex as columns, or none.
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
                                const Eigen::Matrix3Xd& positions, const Frames& frames,
                                const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,

@@ -38,7 +38,7 @@ DepthMap depth_map(const std::vector<Triangle>& triangles, const Eigen::Matrix4d
       const double high = std::min(near.depth + change, its.farthest + depth_rounding);
       if (low > 1 || high < -1) continue;
       map.nearest[texel] = std::min(map.nearest[texel], unit(low));
-      // A surface on the front plane may be cut away.
+      // A surface on the near plane may be clipped.
       if (near.distance >= reach && low > -1 && high < 1)
         map.farthest[texel] = std::min(map.farthest[texel], unit(high));
       if (near.covers() && std::abs(near.depth) <= 1)

@@ -1,5 +1,5 @@
-// Reference of the depth maps (docs/passes.md, "Depth maps"): the surface as a parallel view along a
-// direction sees it, for shadows and for what hangs close above the floor.
+// Reference of the depth maps (docs/passes.md, "Depth maps"): the depth of the surface in a parallel view
+// along a direction, for shadows and for the darkness close to the floor.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,9 +13,10 @@ namespace plisse::reference {
 // components of (x − centre)/radius along right, up and the direction.
 Eigen::Matrix4d parallel_view(const Eigen::Vector3d& centre, double radius, const Eigen::Vector3d& direction);
 
-// What the texels (column, row) of a map may hold, entry row·size + column, row 0 at y = −1: depths 0…1,
-// 1 where nothing is. `nearest` and `farthest` bound what honest rasterisers store (vertices snap to 1/256 of
-// a texel, so an edge within reach = .01 texel of a centre may or may not cover it).
+// The allowed values of the texels (column, row) of a map, entry row·size + column, row 0 at y = −1: depths
+// 0…1, 1 where there is no surface. `nearest` and `farthest` bound the values of correct rasterisers
+// (vertices snap to 1/256 of a texel, so an edge within reach = .01 texel of a centre may or may not cover
+// it).
 struct DepthMap {
   int size = 0;
   std::vector<double> depth, nearest, farthest;

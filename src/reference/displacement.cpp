@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Where the plane of a triangle runs too steeply against the interpolated normal to be projected along it
-// (beyond 87°), eq. 7 is all there is.
+// Where the angle between a triangle's plane normal and the interpolated normal is beyond 87°, the plane
+// cannot be projected along that normal; then eq. 7 is used.
 constexpr double steepest = 0.05;
 
 // Some unit vector at right angles to n.
@@ -23,10 +23,10 @@ Vector3d perpendicular(const Vector3d& n) {
   return n.cross(Vector3d::Unit(smallest)).normalized();
 }
 
-// What a field's waves move within the surface (Chen et al. 2021, v₂): ⅛ A² sin 2φ ∇φ, so that cloth is
-// neither stretched nor squeezed along a wave, but where waves are steeper than s = A|∇φ| = 2 by 1/(2s²) in
-// place of ⅛, or cloth would fold over itself. And its derivative by the place in the triangle's plane, with
-// ∇φ and s held: they turn over the bend of the waves, the rest over a wavelength.
+// The tangential displacement of a field's waves (Chen et al. 2021, v₂): ⅛ A² sin 2φ ∇φ, which makes the
+// strain constant along a wave; where waves are steeper than s = A|∇φ| = 2, with 1/(2s²) in place of ⅛, since
+// the cloth would fold over itself. And its derivative by the position in the triangle's plane, with ∇φ and s
+// taken as constant: they change over the radius of the crests, the other factors over a wavelength.
 struct InPlane {
   Vector3d motion = Vector3d::Zero();
   Matrix3d gradient = Matrix3d::Zero();
@@ -82,7 +82,7 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
   const double upright = n.dot(plane);
   if (std::abs(upright) < steepest || length == 0) return result;
   const Vector3d first = perpendicular(n), tangents[2] = {first, n.cross(first)};
-  Vector3d moved[2];  // what becomes of them
+  Vector3d moved[2];  // their images
   for (int i = 0; i < 2; ++i) {
     const Vector3d& t = tangents[i];
     const Vector3d e = t - t.dot(plane) / upright * n;  // in the triangle's plane, above t
@@ -92,7 +92,7 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
     moved[i] = t + slide - n.dot(slide) * n + gradient.dot(e) * n + result.height * (bend - n.dot(bend) * n);
   }
   const Vector3d normal = moved[0].cross(moved[1]);
-  // A height beyond the radius of the bend turns the surface over; then eq. 7 is the better answer.
+  // A height above the radius of curvature turns the surface over; then eq. 7 is better.
   if (normal.dot(n) > 0) result.normal = normal.normalized();
   return result;
 }

@@ -9,16 +9,16 @@
 namespace plisse::reference {
 
 struct Displaced {
-  Eigen::Vector3d base;      // the point of the triangle that was moved, unit of the triangle
+  Eigen::Vector3d base;      // the point of the triangle before displacement, in the triangle's unit
   Eigen::Vector3d position;  // where to
   Eigen::Vector3d normal;    // unit
   double height = 0, amplitude = 0;
-  double sky_front = 1, sky_back = 1;  // "Cavity", as seen from the normals' side and from the other
+  double sky_front = 1, sky_back = 1;  // "Cavity", seen from the side of the normals and from the other side
 };
 
-// `directions`: d_j, columns, the unit normals of the corners as all triangles around them share them; the
-// triangle's own normals may be others, at hard edges. `cavity` as in Shading. Nothing fades: geometry knows
-// no pixels.
+// `directions`: d_j, columns, the unit normals that all triangles at a corner share; at hard edges the
+// triangle's own normals may differ. `cavity` as in Shading. Waves are not faded, since geometry does not
+// depend on pixels.
 Displaced displace(const Triangle& triangle, const Eigen::Matrix3d& directions,
                    const Eigen::Vector3d& barycentric, const Profile& profile, Blend blend, double cavity);
 

@@ -1,4 +1,4 @@
-// Small functions that several passes of the reference use, as docs/passes.md means them.
+// Small functions that several passes of the reference use, as docs/passes.md defines them.
 #pragma once
 
 #include <algorithm>

@@ -15,9 +15,9 @@ namespace {
 constexpr int map_size = 256;
 constexpr double half_side = 3.2;       // of the map, in radii
 constexpr double sphere_margin = 1.02;  // of the depth maps
-constexpr double contact = 0.05;        // radii over which the surface's darkness fades with its height
+constexpr double contact = 0.05;        // radii: the sky's shadow falls by e with each such height
 
-// Bilinear at `place` in 0…1, of texels of a square of `size` a side, the rim going on.
+// Bilinear at `place` in 0…1, from size × size texels; border texels are repeated outside.
 template <typename Texel>
 auto bilinear(int size, const Vector2d& place, Texel&& texel) {
   const Vector2d at = (place * size).array() - 0.5;
@@ -41,7 +41,7 @@ double depth_at(const ShadowMap& map, int column, int row) {
   return static_cast<double>(map.depth[static_cast<std::size_t>(row) * map.size + column]);
 }
 
-// The share of the key light that is taken away from a point of the floor.
+// The share of the key light that is blocked at a point of the floor.
 double shade_of(const ShadowMap& key, const Vector3d& x) {
   const Vector3d p = in_map(key, x);
   if (p.head<2>().minCoeff() < 0 || p.head<2>().maxCoeff() > 1) return 0;
@@ -50,7 +50,7 @@ double shade_of(const ShadowMap& key, const Vector3d& x) {
                   [&](int column, int row) { return depth > depth_at(key, column, row) ? 1.0 : 0.0; });
 }
 
-// The share of the sky that is taken away by what hangs above a point of the floor.
+// The share of the sky that is blocked by the surface above a point of the floor.
 double contact_of(const ShadowMap& below, const Vector3d& x) {
   const Vector2d place = in_map(below, x).head<2>();
   if (place.minCoeff() <= 0 || place.maxCoeff() >= 1) return 0;
@@ -59,7 +59,7 @@ double contact_of(const ShadowMap& below, const Vector3d& x) {
   return height < 1 ? std::exp(-height * 2 * sphere_margin / contact) : 0;
 }
 
-// The normal distribution, cut off and made to sum to one; the width is in texels.
+// The Gaussian, cut off and normalised to the sum 1; the width is in texels.
 std::vector<double> kernel(double width, int cut_off) {
   std::vector<double> weights;
   double sum = 0;

@@ -1,5 +1,5 @@
-// Reference of the floor's shadows (docs/passes.md, "Ground"): a map of how much of the key light and of the
-// sky the surface takes away from each place of the floor.
+// Reference of the floor's shadows (docs/passes.md, "Ground"): for each place of the floor, the shares of the
+// key light and of the sky that the surface blocks.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,11 +17,11 @@ struct Ground {
   double side = 0;                    // of the map
   double radius = 0;                  // of the model
 };
-// `centre`, `radius`: a sphere that holds the model throughout.
+// `centre`, `radius`: a sphere that contains the model in all frames.
 Ground ground_under(const Eigen::Vector3d& centre, double radius, const Eigen::Vector3d& up, double floor);
 
-// The view from below that finds what hangs lowest: world → clip, depth 0…1 is the height above the floor
-// over 2.04 radii.
+// The view from below, which finds the lowest surface: world → clip; depth 0…1 is the height above the floor
+// divided by 2.04 radii.
 Eigen::Matrix4d view_from_below(const Ground& ground, const Eigen::Vector3d& centre);
 
 // Entry row·size + column, row 0 at the origin: shares of the key light and of the sky, 0…1.
@@ -32,7 +32,7 @@ struct GroundMap {
 // `key`: the key light's depth map; `below`: that of view_from_below. Softened.
 GroundMap ground_map(const Ground& ground, const ShadowMap& key, const ShadowMap& below);
 
-// The map at a place (0…1 along each axis), bilinear, its rim's texels going on outside.
+// The map at a place (0…1 along each axis), bilinear; outside the map its border texels are repeated.
 Eigen::Vector2d sample(const GroundMap& map, const Eigen::Vector2d& place);
 
 }  // namespace plisse::reference

@@ -15,7 +15,7 @@ RasterTriangle set_up(const Matrix3d& corners, const Eigen::Matrix4d& view_proje
   Matrix3d C;
   C << clip.row(0), clip.row(1), clip.row(3);
   const double scale = C.col(0).norm() * C.col(1).norm() * C.col(2).norm();
-  if (!(std::abs(C.determinant()) > 1e-14 * scale)) return raster;  // seen edge on, or of no area
+  if (!(std::abs(C.determinant()) > 1e-14 * scale)) return raster;  // seen edge on, or without area
 
   Matrix3d to_ndc;  // (column, line, 1) → (X, Y, 1) at the pixel's centre
   to_ndc << 2.0 / width, 0, 1.0 / width - 1, 0, -2.0 / height, 1 - 1.0 / height, 0, 0, 1;

@@ -1,9 +1,9 @@
-// Which pixels a triangle covers or comes near, for all that the reference draws: pictures and depth maps.
+// The pixels that a triangle covers or comes near, for the reference's pictures and depth maps.
 //
 // Edge functions in homogeneous coordinates (Olano and Greer 1997, Triangle scan conversion using 2D
 // homogeneous coordinates): e = C⁻¹(X, Y, 1) for C's columns (x, y, w) of the corners in clip space. e_j/Σe
-// are the barycentric coordinates with perspective, Σe = 1/w, and everything is linear in the pixel, so
-// nothing has to be clipped.
+// are the barycentric coordinates with perspective, Σe = 1/w, and everything is linear in the pixel
+// coordinates, so no clipping is needed.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,7 +13,7 @@
 
 namespace plisse::reference {
 
-// Vertices of honest rasterisers snap to 1/256 of a pixel, and depths are rounded.
+// Correct rasterisers round vertices to 1/256 of a pixel, and round depths.
 inline constexpr double reach = 0.01;           // pixels
 inline constexpr double depth_rounding = 1e-6;  // of z/w
 // Pixels: a centre on a shared edge must not fall between two triangles.
@@ -26,7 +26,7 @@ struct RasterTriangle {
   Eigen::Vector3d depth;              // z/w = depth · (column, line, 1)
   double depth_slope = 0;             // |∂(z/w)/∂pixel|
   double nearest = -1, farthest = 1;  // z/w of its corners, where all are in front of the eye
-  int left = 0, right = -1, top = 0, bottom = -1;  // pixels that can be near it, inclusive
+  int left = 0, right = -1, top = 0, bottom = -1;  // pixels that may be near it, inclusive
 };
 
 // Columns of `corners` are world points.
@@ -42,11 +42,11 @@ struct Candidate {
   bool covers() const { return distance >= -edge_rounding; }
 };
 
-// Adds those of one line of the picture, up to `beyond` outside −1 ≤ z/w ≤ 1.
+// Adds the candidates of one line of the picture, with z/w at most `beyond` outside −1…1.
 void collect(const RasterTriangle& raster, int triangle, int line, double beyond,
              std::vector<Candidate>& candidates);
 
-// The triangles of a picture, by the lines they can be near.
+// The triangles of a picture, sorted by the lines they may be near.
 struct Raster {
   Raster(const std::vector<Triangle>& triangles, const Eigen::Matrix4d& view_projection, int width,
          int height);

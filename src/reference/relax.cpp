@@ -175,8 +175,8 @@ double mean_wavelength(const Topology& topology, const WaveField& field, const V
       if (!(field.weights[v] > 0) || !(field.weights[n] > 0)) continue;
       const Vector3d k0 = field.wavenumbers.col(v), kn = field.wavenumbers.col(n);
       const Vector3d edge = field.positions.col(n) - field.positions.col(v);
-      // Half the edge on each wave, and the jump between them: the phases differ by exactly this, modulo
-      // turns.
+      // Half of the edge along each wave, and the difference at the midpoint: the phases differ by exactly
+      // this, modulo turns.
       const double gained =
           k0.dot(edge) / 2 + transport(field, v, n).sign * kn.dot(edge) / 2 + phase_error(field, v, n);
       const double along = edge.dot(axis);

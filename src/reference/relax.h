@@ -1,6 +1,5 @@
-// Reference of the relax pass (Loviscach 2006, section 5.2; docs/passes.md, "Relax"): makes the waves of
-// neighbouring vertices meet, by the paper's descent and by rule 3 of the state over time where wrinkles
-// appear.
+// Reference of the relax pass (Loviscach 2006, section 5.2; docs/passes.md, "Relax"): aligns the waves of
+// neighbouring vertices, by the paper's descent, and by rule 3 of "State over time" where wrinkles appear.
 #pragma once
 
 #include <Eigen/Dense>
@@ -21,12 +20,12 @@ struct WaveField {
   Eigen::VectorXd phases;  // φ, radians in (−π, π]
 };
 
-// A WaveField of a posed surface and what crush found there.
+// A WaveField from a posed surface and the results of crush.
 WaveField wave_field(const Eigen::Matrix3Xd& positions, const Frames& frames,
                      const std::vector<CrushResult>& crushed, const Eigen::VectorXd& phases);
 
-// How the wave of neighbour n goes over into that of vertex 0 at the midpoint of their edge:
-// φ_0/2π would be sign·φ_n/2π + offset if the waves met there.
+// Relation of the phases of neighbour n and vertex 0: their waves agree at the midpoint of the edge if φ_0/2π
+// = sign·φ_n/2π + offset.
 struct Transport {
   double sign = 1;    // −1 where κ_n·κ_0 < 0
   double offset = 0;  // turns
@@ -42,8 +41,8 @@ double vertex_error(const Topology& topology, const WaveField& field, Eigen::Ind
 // One round of eq. 6, φ_0 ← φ_0 − ε ∂E_0/∂φ_0 at all set vertices at once.
 void descent_round(const Topology& topology, WaveField& field, double epsilon);
 
-// One round of onset spreading: fresh vertices beside set ones take their phase and become set. Returns how
-// many.
+// One round of spreading at onset: fresh vertices with set neighbours take a phase from them and become set.
+// Returns their number.
 int onset_round(const Topology& topology, WaveField& field);
 
 // One round of complex smoothing, z ← ½z + ½ mean of the transported z of neighbours, at all fresh vertices
@@ -61,22 +60,22 @@ struct RelaxSettings {
 // A frame's whole relaxation: onset first (smooth), then descent. Changes phases and status of the field.
 void relax(const Topology& topology, WaveField& field, const RelaxSettings& settings);
 
-// A loop's closing: moves each phase whose status is `which`, and whose vertex was set in the moment that the
-// loop is led to, by `share` of the way to that moment's phase (its sign turned where k has turned over). A
-// fresh vertex becomes set thereby. Phases in radians, an entry a vertex.
+// Closes a loop: moves each phase whose status is `which`, and whose vertex was set in the target moment, by
+// `share` of the difference to the phase of that moment (with the opposite sign where k has the opposite
+// sign). A fresh vertex becomes set. Phases in radians, an entry a vertex.
 void lead(Eigen::VectorXd& phases, std::vector<CrushState>& states, const Eigen::VectorXd& aim_phases,
           const std::vector<CrushState>& aim_states, Status which, double share);
 
 // --- measures of a relaxed field
-// ------------------------------------------------------------------------------ E[d²] in turns² over
-// directed edges between wrinkled (w > 0) vertices; 0 without any.
+
+// E[d²] in turns² over directed edges between wrinkled (w > 0) vertices; 0 without any.
 double misfit(const Topology& topology, const WaveField& field);
 
-// ⟨|κ̂·axis|⟩ over wrinkled vertices with κ ≠ 0, `axis` a unit vector: 1 where all waves run along it.
+// ⟨|κ̂·axis|⟩ over wrinkled vertices with κ ≠ 0, `axis` a unit vector: 1 if all waves are parallel to it.
 double parallelism(const WaveField& field, const Eigen::Vector3d& axis);
 
-// The wavelength along `axis` that the phases really have (a length of the pose): least squares of the phase
-// gained from vertex to vertex over their distance along the axis, over directed edges between wrinkled
+// The wavelength along `axis` that follows from the phases (a length of the pose): least squares of the phase
+// difference of two vertices over their distance along the axis, over directed edges between wrinkled
 // vertices.
 double mean_wavelength(const Topology& topology, const WaveField& field, const Eigen::Vector3d& axis);
 

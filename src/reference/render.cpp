@@ -63,7 +63,7 @@ class Painter {
   void draw_pixel(int line, const std::vector<Candidate>& near) const {
     const std::size_t pixel = static_cast<std::size_t>(line) * picture_.width + near.front().column;
     bool ambiguous = false;
-    std::vector<Candidate> remaining;  // those that alpha and back faces leave
+    std::vector<Candidate> remaining;  // those that are not removed by alpha or back-face culling
     std::vector<Candidate> veils;      // blended over the others
     const Candidate* visible = nullptr;
     Vector3d colour = Vector3d::Zero();
@@ -114,8 +114,8 @@ class Painter {
     picture_.silhouette[pixel] = ambiguous;
   }
 
-  // Of blended triangles: part by part, of those with two sides first what is seen from behind, and otherwise
-  // as they are listed.
+  // The order of blended triangles: one part after the other; of two-sided parts first those seen from
+  // behind; otherwise as they are listed.
   std::tuple<int, bool, int> drawing_place(const Candidate& veil) const {
     const Triangle& its = triangle(veil);
     const Vector3d to_eye = scene_.camera.eye - its.waves.corners.col(0);
@@ -125,7 +125,7 @@ class Painter {
   double depth_tolerance(const Candidate& a, const Candidate& b) const {
     return depth_rounding + reach * (raster(a).depth_slope + raster(b).depth_slope);
   }
-  // Whether `b` is where the surface of `a` goes on beyond an edge.
+  // Whether `b` continues the surface of `a` across an edge.
   bool joined(const Candidate& a, const Candidate& b) const {
     return share_an_edge(triangle(a), triangle(b)) && std::abs(a.depth - b.depth) <= depth_tolerance(a, b);
   }
@@ -143,7 +143,7 @@ class Painter {
     }
     return visible->distance < reach && !goes_on;
   }
-  // Rule 6: the centre is within reach of an edge of a blended triangle beyond which nothing joins it.
+  // Rule 6: the centre is within reach of an edge of a blended triangle that no other one continues.
   bool ends_here(const Candidate& veil, const std::vector<Candidate>& veils) const {
     return std::abs(veil.distance) < reach &&
            std::none_of(veils.begin(), veils.end(), [&](const Candidate& other) {

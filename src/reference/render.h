@@ -14,18 +14,18 @@ namespace plisse::reference {
 // Rows from the top of the picture downward. Entries are row·width + column.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Eigen::Vector3d> colour;   // linear, times alpha; 0 where nothing is seen
-  std::vector<double> alpha;             // how much of what stands behind the surface is hidden, 0…1
+  std::vector<Eigen::Vector3d> colour;   // linear, times alpha; 0 where the surface is not visible
+  std::vector<double> alpha;             // the share of the backdrop that the surface hides, 0…1
   std::vector<int> triangle;             // the foremost triangle drawn, −1 none (coverage)
   std::vector<double> depth;             // its z/w, −1…1; 2 none
-  std::vector<std::uint8_t> silhouette;  // 1: what this pixel sees may rightly differ (below)
+  std::vector<std::uint8_t> silhouette;  // 1: a correct rasteriser may show something else here (below)
 };
 
 // Renders at pixel centres (column + ½, row + ½) with a depth test, no clipping needed in front of the eye.
 //
-// A pixel is `silhouette` where an honest rasteriser may see something else, because vertices snap to 1/256
-// of a pixel and depths are rounded. With reach = 0.01 pixel and a triangle "near" where the centre is within
-// reach of it:
+// A pixel is `silhouette` where a correct rasteriser may show something else, because vertices are rounded to
+// 1/256 of a pixel and depths are rounded. With reach = 0.01 pixel and a triangle "near" where the centre is
+// within reach of it:
 //  1. a pixel of the 4-neighbourhood differs in coverage; or
 //  2. it is not covered, yet a triangle is near; or
 //  3. a near triangle other than the visible one is in front of it, or behind by less than 1e-6 + what both

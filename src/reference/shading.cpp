@@ -39,7 +39,8 @@ double footprint_level(const Texture& texture, const Eigen::Matrix2d& uv_per_pix
   return side > 0 ? std::log2(side) : 0;
 }
 
-// Where a coordinate with gradient g grows along a surface of unit normal n; 0 where it does not.
+// The unit direction in which a coordinate with gradient g grows along a surface of unit normal n; 0 where
+// there is none.
 Vector3d growth(const Vector3d& g, const Vector3d& n) {
   const Vector3d along = g - g.dot(n) * n;
   const double length = along.norm();
@@ -92,7 +93,7 @@ double shadow_factor(const ShadowMap& map, const Vector3d& position, const Vecto
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       const double x = point.x() * map.size - 0.5 + dx, y = point.y() * map.size - 0.5 + dy;
-      // Far outside everything is lit; the clamp keeps the conversion to int defined.
+      // Far outside the map everything is lit; the clamp makes the conversion to int valid.
       const double left = std::floor(std::clamp(x, -2.0, map.size + 1.0));
       const double low = std::floor(std::clamp(y, -2.0, map.size + 1.0));
       const double s = std::clamp(x - left, 0.0, 1.0), t = std::clamp(y - low, 0.0, 1.0);

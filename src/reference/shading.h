@@ -1,4 +1,4 @@
-// What a pixel of the reference's render pass is shaded from and how (Loviscach 2006, section 6;
+// The data of the reference's render pass, and the shading of a pixel (Loviscach 2006, section 6;
 // docs/passes.md, "Render"). Colours are linear. World vectors and lengths are in one unit, wavenumbers in
 // turns per that unit.
 #pragma once
@@ -44,7 +44,7 @@ struct Material {
   int normal_texture = -1;   // likewise; its channels, 0…1, are the normal's components, −1…1
   double normal_scale = 1;   // of the normal map's x and y
   double alpha_cutoff = -1;  // pixels with less alpha are cut; negative: none
-  bool blended = false;      // over what is behind it, by its alpha; else opaque
+  bool blended = false;      // blended with what is behind it by its alpha; else opaque
   bool two_sided = true;     // false: triangles seen from behind are not drawn
 };
 
@@ -57,7 +57,7 @@ struct Light {
 struct ShadowMap {
   Eigen::Matrix4d matrix;    // world → clip space; NDC −1…1 become 0…1 in x, y and depth
   int size = 0;              // texels a side
-  std::vector<float> depth;  // size², entry row·size + column, row 0 at y = 0; beyond its rim all is lit
+  std::vector<float> depth;  // size², entry row·size + column, row 0 at y = 0; outside all is lit
   double texel_size = 0;     // of the world
 };
 
@@ -92,29 +92,28 @@ struct Scene {
 // 1 lit … 0 in shadow at x' of a surface whose side toward the viewer has normal n_s.
 double shadow_factor(const ShadowMap& map, const Eigen::Vector3d& position, const Eigen::Vector3d& n_s);
 
-// What the rasteriser knows of a pixel of a triangle: barycentric coordinates with perspective, and how they
-// change from pixel to pixel (columns: to the right, downward), exactly.
+// A pixel of a triangle: barycentric coordinates with perspective, and their exact derivatives by the pixel
+// coordinates (columns: to the right, downward).
 struct Fragment {
   Eigen::Vector3d barycentric;
   Eigen::Matrix<double, 3, 2> per_pixel;
 };
 struct Shaded {
-  Eigen::Vector3d colour{0, 0, 0};  // after the shoulder, linear; sRGB encoding still to come
+  Eigen::Vector3d colour{0, 0, 0};  // after the tone curve's shoulder, linear, before sRGB encoding
   double alpha = 1;                 // of base colour and texture
   bool visible = true;              // false: cut by alpha, or the back of a single-sided material
 };
 Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragment);
 
-// The normal of the triangle's plane, any length, on the side of its corners' normals: it is seen from in
-// front where this points to the eye.
+// The normal of the triangle's plane, of any length, on the side of its corners' normals: the triangle is
+// seen from the front where this points to the eye.
 Eigen::Vector3d front_of(const Triangle& triangle);
 
-// "Cavity": the share of the sky that a point of a groove sees, from the side toward which height counts; 1
+// "Cavity": the share of the sky that is visible from a point of a groove, on the side of positive heights; 1
 // where the amplitude is 0.
 double groove_occlusion(double cavity, double amplitude, double height, double longest_wavenumber);
 
-// Eq. 10 with (v·n)², for v and n_s unit and height along n_s: without parallax's strength, fade-out and
-// limit.
+// Eq. 10 with (v·n)², for unit v and n_s and the height along n_s, without strength, fade-out and limit.
 Eigen::Vector3d parallax_shift(const Eigen::Vector3d& v, const Eigen::Vector3d& n_s, double height);
 
 // The whole Δx of docs/passes.md; `longest_wavenumber` = max |κ_j|.

@@ -76,7 +76,7 @@ std::vector<std::uint32_t> tangent_neighbours(const Topology& topology, const Ma
 
 namespace {
 
-// The coordinate axis least along n (the first on ties), made perpendicular to n.
+// The coordinate axis with the smallest |component| of n (the first on ties), made perpendicular to n.
 Vector3d any_tangent(const Vector3d& n) {
   Index axis = 0;
   n.cwiseAbs().minCoeff(&axis);  // the first minimum

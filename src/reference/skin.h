@@ -16,15 +16,15 @@ struct Influences {
   std::array<double, 8> weight{};        // α, sum 1; 0 = unused
 };
 
-// What the vertices are made of and does not change over time.
+// Data of the vertices that does not change over time.
 struct SkinModel {
   Eigen::Matrix3Xd bind;                 // x_bind
-  Eigen::Matrix3Xd bind_normal;          // unit; used only where the triangles give no normal
+  Eigen::Matrix3Xd bind_normal;          // unit; used only where the triangles define no normal
   std::vector<Influences> influences;    // one per vertex
   std::vector<Eigen::Matrix3Xd> deltas;  // δ_t, one 3 × V array per morph target
 };
 
-// What changes: affine maps (upper three rows of the 4 × 4) and one weight per morph target.
+// Data that changes: affine maps (upper three rows of the 4 × 4) and one weight per morph target.
 struct SkinPose {
   std::vector<Eigen::Matrix4d> palette;
   std::vector<double> morph_weights;
@@ -39,22 +39,22 @@ Eigen::Matrix3Xd skin_positions(const SkinModel& model, const SkinPose& pose);
 // cof(A): columns c₁×c₂, c₂×c₀, c₀×c₁ for the columns c of A; cof(A)(u×v) = Au × Av.
 Eigen::Matrix3d cofactor(const Eigen::Matrix3d& A);
 
-// n' by areas; where the areas cancel to under 1e-6 of Σ|e||e|, cof(linear[v])·bind_normal, and where that is
-// zero as well, bind_normal. `linear` holds Σ αₖ Mₖ's linear part per vertex.
+// n' from the triangles' areas; where these cancel to less than 1e-6 of Σ|e||e|, cof(linear[v])·bind_normal,
+// and where that is zero as well, bind_normal. `linear` holds Σ αₖ Mₖ's linear part per vertex.
 Eigen::Matrix3Xd skin_normals(const Topology& topology, const Eigen::Matrix3Xd& positions,
                               const std::vector<Eigen::Matrix3d>& linear,
                               const Eigen::Matrix3Xd& bind_normal);
 
-// The neighbour t points to: the longest part in the tangent plane of the rest pose, ties to the smaller id;
-// the vertex itself where it has no neighbour.
+// The neighbour to which t points: the one with the longest tangential part in the rest pose, on ties the
+// smaller id; the vertex itself where it has no neighbour.
 std::vector<std::uint32_t> tangent_neighbours(const Topology& topology, const Eigen::Matrix3Xd& rest_normals);
 
-// Tangents toward those neighbours, made perpendicular to the normals (docs/passes.md for where there is
-// none).
+// Tangents toward those neighbours, made perpendicular to the normals (docs/passes.md says what holds without
+// a neighbour).
 Eigen::Matrix3Xd skin_tangents(const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& normals,
                                const std::vector<std::uint32_t>& tangent_neighbour);
 
-// Frames of the rest pose: area normals of topology.rest with bind_normal as the fallback.
+// Frames of the rest pose: area normals of topology.rest, or bind_normal where the areas cancel.
 Frames rest_frames(const Topology& topology, const Eigen::Matrix3Xd& bind_normal);
 
 struct SkinResult {

@@ -1,4 +1,5 @@
-// What skin, crush and relax of the reference share: the welded mesh and its frames, in double precision.
+// Data that skin, crush and relax of the reference share: the welded mesh and its frames, in double
+// precision.
 //
 // Arrays are 3 × V, one column a welded vertex. Lengths are in any one unit (docs/passes.md, "Units").
 #pragma once

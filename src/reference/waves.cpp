@@ -41,7 +41,7 @@ Matrix3d barycentric_gradients(const Matrix3d& corners) {
 
 namespace {
 
-// The share of an edge in the smooth blend and how far along the edge a point is.
+// The share of an edge in the smooth blend, and the position of a point along the edge.
 struct EdgeBlend {
   double share;  // e = (product of the coordinates of its two ends)²
   Vector3d share_gradient;
@@ -78,7 +78,7 @@ BlendWeights smooth_weights(const Matrix3d& corners, const Matrix3d& gradients, 
     total_gradient += edge.share_gradient;
   }
   BlendWeights result;
-  // On a corner no edge has a share; what the weights tend to there is the corner's own wave, level.
+  // At a corner no edge has a share; the limit of the weights is the corner's own wave, with gradient 0.
   if (barycentric.maxCoeff() == 1) return {barycentric, Matrix3d::Zero()};
   for (int j = 0; j < 3; ++j) {
     const EdgeBlend& out = edges[j];           // starts at this corner

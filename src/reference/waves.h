@@ -22,8 +22,7 @@ struct Profile {
   double coarse = 1, fine = 0;
 };
 Profile sinusoid();
-// Looks f and f' up in tables of equal size with linear interpolation, entry i at i/N turns, as the shaders
-// do.
+// f and f' from tables of equal size with linear interpolation, entry i at i/N turns, as in the shaders.
 Profile tabulated(std::vector<double> height, std::vector<double> slope, double slope_power);
 
 // Column or entry j belongs to corner j (A, B, C).
@@ -52,8 +51,8 @@ struct HeightSample {
   Eigen::Vector3d gradient{0, 0, 0};  // ∇h, world
   Eigen::Vector3d weights{0, 0, 0};   // w_j
 };
-// The height field at a point of the triangle. `fade` multiplies each wave (1 far from the pixel's limit),
-// `fine_fade` its finer ones.
+// The height field at a point of the triangle. `fade` multiplies each wave (1 for waves much longer than a
+// pixel), `fine_fade` its finer ones.
 HeightSample height_and_gradient(const WaveTriangle& triangle, const Eigen::Vector3d& barycentric,
                                  const Profile& profile, Blend blend, Gradient gradient,
                                  const Eigen::Vector3d& fade = Eigen::Vector3d::Ones(),
