@@ -16,16 +16,16 @@ namespace plisse::paint {
 void write_bias_ply(const std::filesystem::path& path, const Surface& surface,
                     const std::vector<glm::dvec3>& bias);
 
-// p of every welded vertex. Throws Error(bad_input): another number of vertices, others than the model's, |p|
-// ≥ 1.
+// p of every welded vertex. Throws Error(bad_input) where number or positions of vertices differ from the
+// model's, or |p| ≥ 1.
 std::vector<glm::dvec3> read_bias_ply(const std::filesystem::path& path, const Surface& surface);
 
 // The uv texture: `size`² texels that are data, not colour. Red and green are ½ + ½cos 2θ and ½ + ½sin 2θ, θ
 // the angle of p from growing u toward growing v in the tangent plane (doubled because p and −p are the same,
-// and so that texels may be averaged); blue is |p|. A vertex's own texel has its p whole; texels between
-// interpolate; islands are widened by eight texels, so that filters do not reach the ground (0.5, 0.5, 0).
-// Throws Error(bad_input) where uv cannot carry it: there is none, it leaves 0…1, or different vectors fall
-// on one texel (overlapping islands, or a size too small).
+// and so that texels may be averaged); blue is |p|. The texel at a vertex has exactly its p; texels in
+// between are interpolated; islands are widened by eight texels, so that filters do not reach the background
+// (0.5, 0.5, 0). Throws Error(bad_input) where uv is not suitable: there is none, it leaves 0…1, or different
+// vectors belong to one texel (overlapping islands, or a size too small).
 io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
                       int size);
 
@@ -34,7 +34,7 @@ io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std:
 std::vector<glm::dvec3> decode_bias(const Surface& surface, const RestFrames& rest, const io::Image& image,
                                     const std::string& name);
 
-// Either, by the file's ending.
+// Reads one or the other, by the file's ending.
 std::vector<glm::dvec3> read_bias(const std::filesystem::path& path, const Surface& surface,
                                   const RestFrames& rest);
 

@@ -31,8 +31,7 @@ std::vector<glm::dvec3> read_bias_ply(const std::filesystem::path& path, const S
                           count, surface.vertex_count()));
   }
   const std::vector<glm::dvec3> positions = ply.vectors("vertex"), bias = ply.vectors("vertex", "bias_");
-  // A hundred times what makes two vertices one: a file may have been through a program with single
-  // precision.
+  // A hundred times the welding tolerance: another program may have written the file in single precision.
   const double tolerance = 100 * weld_tolerance(surface.rest);
   for (std::size_t v = 0; v < bias.size(); ++v) {
     if (!(glm::distance(positions[v], surface.rest[v]) <= tolerance)) {

@@ -154,8 +154,8 @@ io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std:
   }
   if (!any) throw Error(ExitCode::bad_input, "the model has no uv; what is painted fits into no texture");
 
-  // The vertices' own texels last, whole; where two of them ask for different vectors the texture cannot tell
-  // them apart.
+  // Last the texels at vertices, with their exact vectors; if two vertices with different vectors have the
+  // same texel, the texture cannot represent them.
   std::vector<std::uint32_t> owner(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
                                    0xffffffffU);
   for (std::uint32_t i = 0; i < frames.size(); ++i) {

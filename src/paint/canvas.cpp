@@ -1,5 +1,5 @@
 // After J. Loviscach, Wrinkling Coarse Meshes on the GPU (2006), section 7: the vector of a stroke is blended
-// into the vectors there are, so that no blend is longer than the longest stroke.
+// with the vectors already there, so that no result is longer than the longest stroke.
 #include "paint/canvas.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ glm::dvec3 on_the_side_of(const glm::dvec3& b, const glm::dvec3& p) {
   return glm::dot(b, p) < 0 ? -p : p;
 }
 
-// The mean of the neighbours' vectors, laid into the tangent plane with its length kept.
+// The mean of the neighbours' vectors, rotated into the tangent plane with its length unchanged.
 glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias, std::uint32_t vertex) {
   const auto& rows = canvas.surface.neighbours;
   const std::uint32_t begin = rows.offsets[vertex], end = rows.offsets[vertex + 1];
@@ -54,7 +54,7 @@ glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias
 
 void apply(const Canvas& canvas, const config::PaintStroke& stroke, const std::vector<Touch>& touches,
            std::vector<glm::dvec3>& bias) {
-  std::vector<glm::dvec3> before;  // what is evened out: elsewhere nothing looks at neighbours
+  std::vector<glm::dvec3> before;  // the vectors before smoothing; only needed for mode `smooth`
   if (stroke.mode == config::PaintStroke::Mode::smooth) before = bias;
   for (const Touch& touch : touches) {
     glm::dvec3& p = bias[touch.vertex];
@@ -98,7 +98,7 @@ std::vector<std::vector<Touch>> touched_as_its_kind(const Canvas& canvas, const 
   return {touched_by_fill(canvas, stroke)};
 }
 
-// What is wrong with a file that a stroke names is told with the stroke's place.
+// Errors in a file that a stroke names are reported with the stroke's place.
 std::vector<std::vector<Touch>> touched(const Canvas& canvas, const config::PaintStroke& stroke) {
   try {
     return touched_as_its_kind(canvas, stroke);

@@ -1,4 +1,4 @@
-// The bridge from Chen et al., Fine Wrinkling on Coarsely Meshed Thin Shells (2021), height a cos φ, to the
+// From a field of Chen et al., Fine Wrinkling on Coarsely Meshed Thin Shells (2021), height a cos φ, to the
 // bias of Loviscach 2006, section 7.
 #include "paint/field.h"
 
@@ -18,14 +18,14 @@ namespace {
 
 using std::numbers::pi;
 constexpr double floor_of_r = 0.05;  // r_min of docs/passes.md
-constexpr int gradient_rounds = 12;  // each takes away half or more of what is wrong
+constexpr int gradient_rounds = 12;  // each reduces the error to half or less
 
 double smoothstep(double low, double high, double x) {
   const double s = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
-// One edge as seen from a vertex inside one triangle, so that the branch of the phase is right.
+// One edge from a vertex, in one triangle, so that both phases have the same branch.
 struct Difference {
   std::uint32_t to = 0;
   glm::dvec3 edge{0};
@@ -40,7 +40,7 @@ std::vector<std::vector<Difference>> differences(const Surface& surface, const S
     };
     for (std::size_t c = 0; c < 3; ++c) {
       for (const std::size_t other : {(c + 1) % 3, (c + 2) % 3}) {
-        // A phase without amplitude means nothing.
+        // A phase without amplitude has no meaning.
         if (!(field.amplitude[id(c)] > 0 && field.amplitude[id(other)] > 0)) continue;
         all[id(c)].push_back({id(other), surface.rest[id(other)] - surface.rest[id(c)],
                               field.phase[t][other] - field.phase[t][c]});
@@ -119,7 +119,8 @@ std::vector<glm::dvec3> phase_gradients(const Surface& surface, const RestFrames
       glm::dvec2 right(0);
       for (const Difference& d : all[v]) {
         const glm::dvec2 e(glm::dot(t, d.edge), glm::dot(b, d.edge));
-        // Along the edge the phase grows by the mean of both ends' gradients; the first round knows none.
+        // Along the edge the phase grows by the mean of both ends' gradients, which are unknown in the first
+        // round.
         const double bend = round == 0 ? 0 : 0.5 * glm::dot(gradients[d.to] - gradients[v], d.edge);
         const double weight = 1 / std::max(glm::dot(d.edge, d.edge), 1e-300);
         s += weight * glm::outerProduct(e, e);

@@ -1,5 +1,5 @@
-// Solved wrinkle fields as wrinkles of the rest pose (docs/passes.md, "Fields"): laid onto the welded
-// surface, and from there into what crush and relax start with.
+// Solved wrinkle fields as wrinkles of the rest pose (docs/passes.md, "Fields"): mapped to the welded
+// surface, and converted to the initial state of crush and relax.
 #pragma once
 
 #include <array>
@@ -18,30 +18,31 @@ struct SurfaceField {
   std::vector<std::array<double, 3>> phase;  // φ, radians, one a corner of every triangle of the surface
 };
 
-// Finds each of the field's vertices among the surface's by its place. `to_world` takes the file's space to
+// Finds each vertex of the field among the surface's by its position. `to_world` maps the file's space to
 // metres and y up. Throws Error(bad_input) naming `file` where a vertex or a triangle has no counterpart: the
 // field was solved on another surface than the model's rest pose.
 SurfaceField field_on(const Surface& surface, const io::WrinkleField& field, const glm::dmat4& to_world,
                       const std::string& file);
 
-// ∇φ of every vertex, radians per metre, tangent to the rest pose; 0 where the amplitude is. It is the one
-// whose mean with the neighbours' reproduces the differences of phase along the edges, as relax will ask for.
+// ∇φ of every vertex, radians per metre, tangent to the rest pose; 0 where the amplitude is. Its mean with
+// the neighbour's gradient reproduces the phase difference along each edge, which is the condition of relax.
 std::vector<glm::dvec3> phase_gradients(const Surface& surface, const RestFrames& rest,
                                         const SurfaceField& field);
 
-// s = 1 − r with √(1−r²)/r · ease(s) = 2aω/π, at most 1 − r_min: how much cloth has to be gathered for waves
-// of amplitude a and wavelength 2π/ω. `steepness` = aω.
+// s = 1 − r with √(1−r²)/r · ease(s) = 2aω/π, at most 1 − r_min: the share of cloth that has to be gathered
+// for waves of amplitude a and wavelength 2π/ω. `steepness` = aω.
 double gathered_for(double steepness, double dead_zone);
 
 // The field as bias: bias and wavelength such that crush, at rest, gives h = a and κ = ∇φ/2π; direction and
-// phase to start from. Vertices of no amplitude keep what they have.
+// phase to start from. Vertices without amplitude keep their values.
 void field_as_bias(const Surface& surface, const RestFrames& rest, const SurfaceField& field,
                    double dead_zone, VertexWaves& waves);
 
-// The field to be carried as it is: every corner's phase with its vertex's gradient, in the triangle. Where a
-// vertex's gradient does not bring it to its neighbours' phases within a quarter of a turn (round a
-// singularity, or where the amplitude is 0) its planes are linear between the corners instead. Amplitudes are
-// multiplied by `mask`, one a welded vertex: the scene's strength, 0 where a part is selected out.
+// The field to be carried unchanged: in each triangle, the phase of every corner with the gradient of its
+// vertex. Where a vertex's gradient predicts a neighbour's phase with an error above a quarter of a turn
+// (around a singularity), or where the amplitude is 0, its phase is interpolated linearly between the corners
+// instead. Amplitudes are multiplied by `mask`, one a welded vertex: the scene's strength, 0 for excluded
+// parts.
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
                                           const SurfaceField& field, const std::vector<double>& mask);
 

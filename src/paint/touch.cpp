@@ -52,7 +52,7 @@ std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const config::Pai
     const double angle = glm::radians(direction.degrees);
     const auto frames = uv_frames(canvas.surface, canvas.rest);
     bool any = false;
-    for (std::size_t i = frames.size(); i-- > 0;) {  // the first render vertex of a welded one decides
+    for (std::size_t i = frames.size(); i-- > 0;) {  // the first render vertex of a welded one is used
       if (!frames[i].valid()) continue;
       any = true;
       directions[canvas.surface.render_vertices[i].welded] =

@@ -1,4 +1,4 @@
-// Where a stroke touches the surface: what the kinds of strokes have in common.
+// The vertices that a stroke touches, for all kinds of strokes.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace plisse::paint {
 // One vertex that a stroke touches.
 struct Touch {
   std::uint32_t vertex = 0;
-  double amount = 1;  // how far p moves toward the stroke's own vector, 0…1
-  glm::dvec3 vector{
-      0};  // that vector over the strength: in the rest pose, tangent, length 0…1; p and −p are the same
+  double amount = 1;     // how far p moves toward the stroke's own vector, 0…1
+  glm::dvec3 vector{0};  // that vector divided by the strength: in the rest pose, tangent, length 0…1; p and
+                         // −p are the same
 };
 
-// One each kind; amounts and vectors are not masked yet.
+// One function for each kind; `only` and `exclude` are not yet applied.
 std::vector<Touch> touched_on_screen(const Canvas& canvas, const config::PaintStroke& stroke);
 std::vector<Touch> touched_on_surface(const Canvas& canvas, const config::PaintStroke& stroke);
 std::vector<Touch> touched_in_uv(const Canvas& canvas, const config::PaintStroke& stroke);
@@ -29,7 +29,7 @@ std::vector<Touch> touched_by_fill(const Canvas& canvas, const config::PaintStro
 // Random folds, one list each: they are blended one after the other.
 std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const config::PaintStroke& stroke);
 
-// Error(bad_input) at the stroke's place.
+// Error(bad_input) with the stroke's place in the file.
 [[noreturn]] void fail(const config::PaintStroke& stroke, const std::string& what);
 
 // 1 on the line to 0 at the radius; part = distance/radius.
@@ -42,12 +42,11 @@ struct OnLine {
 };
 OnLine nearest_on_line(const std::vector<glm::dvec3>& points, const glm::dvec3& x);
 
-// The part of a vector that is tangent to the rest pose at a vertex, of length 1; 0 where hardly any of it
-// is.
+// The tangential part of a vector at a vertex of the rest pose, normalised; 0 where this part is very small.
 glm::dvec3 tangent_part(const Canvas& canvas, std::uint32_t vertex, const glm::dvec3& vector);
 
 // The direction of a stroke with an angle or a vector at every welded vertex; empty for the other directions.
-// An angle needs uv: vertices without get 0, and where none has any the stroke fails.
+// An angle needs uv: vertices without uv get 0, and if none has uv the stroke is an error.
 std::vector<glm::dvec3> fixed_directions(const Canvas& canvas, const config::PaintStroke& stroke);
 
 // Whether the stroke may touch each welded vertex, by its `only` and `exclude`.

@@ -29,7 +29,7 @@ Pixel projected(const Screen& screen, const glm::dvec3& x) {
           true};
 }
 
-// Which triangle each pixel shows.
+// The triangle that is visible in each pixel.
 class TriangleMap {
  public:
   TriangleMap(const Surface& surface, const Screen& screen, const std::vector<Pixel>& pixels)
@@ -46,7 +46,8 @@ class TriangleMap {
     return triangle_[index(static_cast<int>(x), static_cast<int>(y))];
   }
 
-  // Whether a vertex is what its own pixel or one beside it shows: a triangle round it, or nothing nearer.
+  // Whether a vertex is visible: its own pixel or one beside it shows a triangle of this vertex, or nothing
+  // nearer.
   bool shows(std::uint32_t vertex, const Pixel& pixel) const {
     if (!pixel.in_front) return false;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -107,8 +108,7 @@ class TriangleMap {
   std::vector<double> depth_;
 };
 
-// A direction of the posed tangent plane brought back to the rest pose: by M⁻¹, M the regression over the
-// neighbours.
+// Maps a direction of the posed tangent plane to the rest pose by M⁻¹, M the regression over the neighbours.
 glm::dvec3 at_rest(const Canvas& canvas, const Screen& screen, std::uint32_t v, const glm::dvec3& direction) {
   const Surface& surface = canvas.surface;
   const glm::dvec3 n = area_normal(surface, screen.positions, v, canvas.rest.normal[v]);
@@ -170,7 +170,7 @@ std::vector<Touch> touched_on_screen(const Canvas& canvas, const config::PaintSt
   };
 
   bool hit = false;
-  std::vector<std::uint32_t> under;  // the vertices nearest to the line where the radius has none
+  std::vector<std::uint32_t> under;  // the vertices nearest to the line, if none is within the radius
   for (std::size_t i = 0; i < stroke.points.size(); ++i) {
     const glm::dvec2 from(stroke.points[i]), to(stroke.points[std::min(i + 1, stroke.points.size() - 1)]);
     const int steps = std::max(1, static_cast<int>(std::min(glm::distance(from, to), 1e5)));

@@ -1,4 +1,4 @@
-// Strokes given on the rest surface: lines by points or vertices, everything, and folds strewn at random.
+// Strokes on the rest surface: lines by points or vertices, the whole surface, and folds at random places.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ std::uint32_t nearest_vertex(const Surface& surface, const glm::dvec3& x) {
   return best;
 }
 
-// Nearer and nearer over the edges: the nearest vertex where the start was near, and never across a gap.
+// Walks along edges to ever nearer vertices: finds the nearest vertex if the start was near, and never
+// crosses a gap.
 std::uint32_t descend_to(const Surface& surface, std::uint32_t start, const glm::dvec3& x) {
   for (std::uint32_t at = start;;) {
     std::uint32_t best = at;
@@ -43,9 +44,8 @@ double longest_edge(const Surface& surface, std::uint32_t v) {
   return longest;
 }
 
-// The vertices within the radius of a line that can be reached from the seeds without leaving it: the far
-// side of a sleeve is near as well, but not touched. Where not even a seed is within the radius, the seeds
-// themselves.
+// The vertices within the radius of a line that can be reached from the seeds along edges within that radius,
+// so that the other side of a sleeve is not included. If no seed is within the radius, the seeds themselves.
 std::vector<Touch> near_line(const Canvas& canvas, const config::PaintStroke& stroke,
                              const std::vector<glm::dvec3>& line, const std::vector<std::uint32_t>& seeds,
                              const std::vector<glm::dvec3>& fixed) {
@@ -183,13 +183,13 @@ std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const co
     const glm::dvec3 start =
         (1 - b - c) * surface.rest[ids[0]] + b * surface.rest[ids[1]] + c * surface.rest[ids[2]];
     const std::uint32_t first = descend_to(surface, ids[0], start);
-    // The fold runs at right angles to the way the cloth is gathered.
+    // The fold is perpendicular to the direction in which the cloth is gathered.
     const glm::dvec3 n = canvas.rest.normal[first], t0 = canvas.rest.tangent[first];
     glm::dvec3 heading = std::cos(angle) * t0 + std::sin(angle) * glm::cross(n, t0);
     if (!fixed.empty()) heading = glm::cross(n, fixed[first]);
     if (!(glm::length(heading) > 0)) heading = t0;
 
-    // Straight on both ways, step by step, held to the tangent plane of the nearest vertex.
+    // Straight in both directions, step by step, projected into the tangent plane of the nearest vertex.
     std::vector<glm::dvec3> line{start};
     std::vector<std::uint32_t> seeds{first};
     constexpr int steps = 8;

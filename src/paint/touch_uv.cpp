@@ -1,4 +1,4 @@
-// Strokes given in uv or by files: lines, pictures, vertex colours, and what was painted before.
+// Strokes in uv or from files: lines, pictures, vertex colours, and earlier results of painting.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<UvFrame> needed_uv_frames(const Canvas& canvas, const config::PaintS
   return frames;
 }
 
-// The strongest touch of each welded vertex, for what was found a render vertex at a time.
+// The strongest touch of each welded vertex, from those of its render vertices.
 std::vector<Touch> strongest(const std::map<std::uint32_t, Touch>& found) {
   std::vector<Touch> touches;
   for (const auto& [vertex, touch] : found) touches.push_back(touch);

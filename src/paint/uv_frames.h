@@ -1,4 +1,4 @@
-// Tangent frames that follow the uv coordinates, one a render vertex: what the uv texture's angles refer to.
+// Tangent frames along the uv coordinates, one per render vertex; the angles of the uv texture refer to them.
 #pragma once
 
 #include <glm/glm.hpp>

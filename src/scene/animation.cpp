@@ -71,7 +71,7 @@ Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames
   if (frames_per_second > 0) timeline.frames_per_second = frames_per_second;
   if (clip == nullptr) return timeline;
   timeline.duration = clip->duration;
-  // contract.md, "Frames, time, units"; the 1e-3 makes up for durations stored in single precision.
+  // contract.md, "Frames, time, units"; the 1e-3 allows for the rounding of durations in single precision.
   const double frames = std::floor(timeline.duration * timeline.frames_per_second + 1e-3) + 1;
   if (!(frames < 1e9))
     throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' of {} s has more frames than can be counted",
@@ -124,7 +124,7 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
     for (const std::uint32_t v : weld.representative)
       surface.target_deltas.push_back(from.vertices.target_deltas[t * from.vertices.positions.size() + v]);
 
-  // What a vertex of the file has become is remembered for its other corners.
+  // The new vertex of each vertex of the file is stored for its other corners.
   constexpr std::uint32_t none = 0xFFFFFFFF;
   std::vector<std::uint32_t> become(from.vertices.positions.size(), none);
   std::unordered_map<RenderKey, std::uint32_t, RenderKeyHash> known;
@@ -146,8 +146,8 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
   surface.parts = from.parts;
   build_adjacency(surface);
 
-  // Where areas cancel (a sheet modelled twice, back to back) the file's normals decide, or else any
-  // triangle.
+  // Where areas cancel (a sheet modelled twice, back to back) the file's normals are used, or else those of
+  // any triangle.
   std::vector<glm::dvec3> file_normal(welded, glm::dvec3{0});
   for (std::size_t r = 0; r < normals.size(); ++r)
     file_normal[surface.render_vertices[r].welded] += normals[r];
@@ -167,8 +167,8 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
   return surface;
 }
 
-// The file's normals, given with the bind pose, ride over to the rest pose as components in the tangent
-// frames (docs/passes.md, "Skin"); where the file has none the surface's own stand in.
+// The file's normals belong to the bind pose. They are transferred to the rest pose as components in the
+// tangent frames (docs/passes.md, "Skin"); where the file has none, the surface's own normals are used.
 void set_render_normals(Surface& surface, const std::vector<glm::dvec3>& normals) {
   const RestFrames rest = rest_frames(surface);
   const bool bound = surface.rest == surface.bind;
@@ -224,7 +224,7 @@ struct Animation::Data {
     return pose;
   }
 
-  // Replaces what is not finite by what stood there in the last pose.
+  // Replaces values that are not finite by those of the last pose.
   template <typename Entry>
   void hold(std::vector<Entry>& entries, const std::vector<Entry>& before, int frame,
             const char* what) const {
@@ -251,7 +251,7 @@ struct Animation::Data {
   std::vector<MorphSource> targets;
   io::VertexCache cache;
   std::vector<std::uint32_t> cache_index;  // per welded vertex, into a frame of the cache
-  Pose last;                               // finite, whatever the clip holds
+  Pose last;                               // always finite
 };
 
 namespace {
@@ -262,9 +262,10 @@ std::vector<double> frame_times(const Timeline& timeline) {
   return times;
 }
 
-// In a cache layers of cloth may touch in the first frame and part later: one vertex is what stays together.
-// A cache is gone through frame by frame, for it may not fit into memory: what the first frame joins is
-// watched, and joined anew without the pairs that part, until none does.
+// In a cache, layers of cloth may touch in the first frame and separate later; only vertices that stay
+// together in all frames are one. The cache is read frame by frame, since it may not fit into memory: pairs
+// that are joined in the first frame are checked in all frames, and the vertices are joined again without the
+// pairs that separated, until no pair does.
 Weld weld_instances(const Instances& instances, const io::VertexCache& cache) {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const double tolerance = weld_tolerance(instances.vertices.positions);
@@ -280,7 +281,7 @@ Weld weld_instances(const Instances& instances, const io::VertexCache& cache) {
       if (pair.first != v && watched.insert(pair).second) fresh.push_back(pair);
     }
     const std::size_t before = parted.size();
-    // Once at least, pairs or none: reading a frame is what checks it.
+    // At least once, even without pairs, because reading a frame also checks it.
     for (std::size_t f = 0; f < cache.size() && (before == 0 || !fresh.empty()); ++f) {
       const io::VertexCache::Frame frame = cache.frame(f);
       for (const Pair& pair : fresh)
@@ -295,7 +296,7 @@ Weld weld_instances(const Instances& instances, const io::VertexCache& cache) {
 // Vertices of another file in the order of this model's, placed in the world.
 std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::filesystem::path& path,
                                           std::size_t expected, const Limits& limits) {
-  // OBJ and PLY state neither unit nor up axis: they are taken to be in the model's own.
+  // OBJ and PLY files contain neither unit nor up axis: those of the model are assumed.
   io::ImportOptions options;
   options.limits = limits;
   const std::string extension = lower_case(path.extension().string());
@@ -338,7 +339,7 @@ Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
   if (!data.cache.empty())
     for (const std::uint32_t v : weld.representative) data.cache_index.push_back(instances.cache_index[v]);
 
-  // The pose that holds until the clip has given a finite one: the bind pose.
+  // The pose until the clip has a finite one: the bind pose.
   data.last.palette.assign(data.palette.empty() ? 1 : data.palette.size(), glm::dmat4{1});
   for (const MorphSource& source : data.targets) data.last.morph_weights.push_back(source.rest_weight);
   if (!data.cache.empty()) data.last.cache = data.surface.bind;
@@ -407,7 +408,7 @@ glm::dmat4 Animation::node_matrix(int node, int frame) const {
 }
 
 std::vector<glm::dvec3> Animation::samples() const {
-  // Enough for a camera's fit; its margin covers what lies between the samples.
+  // Enough to fit a camera; its margin allows for points between the samples.
   constexpr int most_frames = 200;
   constexpr std::size_t most_vertices = 5000;
   const Surface& surface = data_->surface;

@@ -12,7 +12,7 @@
 
 namespace plisse::scene {
 
-// Everything about one moment that the skin pass needs. Two equal poses compare equal bit for bit.
+// The data of one moment that the skin pass needs. Equal poses compare equal bit for bit.
 struct Pose {
   std::vector<glm::dmat4> palette;    // Surface::bind → posed, metres of the world
   std::vector<double> morph_weights;  // one per target of the surface
@@ -20,7 +20,7 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
-// Frame n (from 1) stands at (n−1)/fps seconds from the clip's start.
+// Frame n (from 1) is at (n−1)/fps seconds from the clip's start.
 struct Timeline {
   double frames_per_second = 24;
   double duration = 0;  // seconds
@@ -47,15 +47,15 @@ class Animation {
   Surface& surface();  // parts may be switched off by the selection
   const Timeline& timeline() const;
   const std::string& clip_name() const;  // "" where the model has none
-  // The pose at a frame. A non-finite entry holds its last finite value of the frames asked before (frames
-  // are asked in order) and warns once.
+  // The pose at a frame. An entry that is not finite is replaced by its last finite value in the frames
+  // requested before (in order), with one warning.
   Pose pose(int frame);
   // World matrix of a model's node at a frame (cameras).
   glm::dmat4 node_matrix(int node, int frame) const;
   struct Bounds {
     glm::dvec3 low, high;
   };
-  // Over all frames of the clip (sampled for long clips and large meshes; deterministic).
+  // Over all frames of the clip (long clips and large meshes are sampled, deterministically).
   Bounds bounds() const;
   // Posed points of the whole clip, metres: at most 5000 vertices of at most 200 frames, evenly picked.
   std::vector<glm::dvec3> samples() const;

@@ -21,14 +21,14 @@ glm::dvec2 half_film(const config::SceneSettings& settings) {
   return aspect >= 1 ? glm::dvec2(half_long, half_long / aspect) : glm::dvec2(half_long * aspect, half_long);
 }
 
-// What lies flat is looked at from higher up, lest it be a line: from a height of 0.3 of the narrower side
-// downward.
+// A flat model is viewed from higher up, since it would be a line otherwise: if its height is below 0.3 of
+// the narrower side.
 double elevation_for(const glm::dvec3& size) {
   const double flat = 1 - std::min(size.y / std::max(0.3 * std::min(size.x, size.z), 1e-12), 1.0);
   return 15 + 35 * flat;
 }
 
-// By name, or else by index. Throws Error(bad_input) naming those there are.
+// By name, or else by index. Throws Error(bad_input) with the list of cameras.
 const io::Camera& model_camera(const io::Model& model, const std::string& choice) {
   std::vector<std::string> names;
   for (const io::Camera& camera : model.cameras) names.push_back(camera.name);
@@ -47,7 +47,8 @@ const io::Camera& model_camera(const io::Model& model, const std::string& choice
 }  // namespace
 
 // In the camera's own axes a point (x, y) at depth z is seen where |x −
-// s| ≤ (z + d) tan, so each side of the picture is a plane that the points push outward.
+// s| ≤ (z + d) tan, so each side of the picture is a plane, and each point gives a lower bound for its
+// offset.
 config::CameraSettings fitted_camera(const config::SceneSettings& settings, const Animation::Bounds& bounds,
                                      const std::vector<glm::dvec3>& samples) {
   config::CameraSettings camera = settings.camera;
@@ -99,7 +100,8 @@ Camera camera_at(const config::SceneSettings& settings, const io::Model& model, 
     tan_x = tan_y * settings.output.width / settings.output.height;
     if (chosen.half_height > 0) {
       half_height = chosen.half_height * glm::length(glm::dvec3(place[1])) / units.metres;
-      // Parallel rays come from far away; shading wants a point they come from, here right to a thousandth.
+      // Parallel rays have no origin, but shading needs the eye as a point: it is put so far away that
+      // directions are right to a thousandth.
       eye -= 1000 * radius * forward;
     }
   }

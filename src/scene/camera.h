@@ -1,4 +1,4 @@
-// The camera of a scene: the one it names, or one that is fitted round the model over the whole clip.
+// The camera of a scene: the one that it names, or one fitted to the model over the whole clip.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,7 +11,7 @@
 
 namespace plisse::scene {
 
-// What the picture of one frame sees, in model units.
+// The view of one frame, in model units.
 struct Camera {
   glm::dmat4 view_projection{1};
   glm::dvec3 eye{0, 0, 1}, forward{0, 0, -1}, up{0, 1, 0};  // up: of the world
@@ -20,9 +20,9 @@ struct Camera {
   double floor = 0;  // height of the ground along up
 };
 
-// Where no camera is given, or only its direction: the place nearest to the model from which every one of
-// `samples` (posed points of the clip, metres, within `bounds`) is in the picture. Any other camera comes
-// back as it is.
+// Where no camera or only its direction is given: places the camera as near to the model as possible with all
+// of `samples` (posed points of the clip, metres, within `bounds`) in the picture. Any other camera is
+// returned unchanged.
 config::CameraSettings fitted_camera(const config::SceneSettings& settings, const Animation::Bounds& bounds,
                                      const std::vector<glm::dvec3>& samples);
 

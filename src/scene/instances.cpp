@@ -1,11 +1,11 @@
 // Gathering the instances of a model (see instances.h).
 //
-// A skinned mesh has no place of its own: bone b puts a vertex x at world(b)·offset_b·x = G_b·x. Where the
-// nodes stand as they did at bind time all G_b are equal and A = G maps the mesh into the world. Where they
-// do not, the G_b differ by motions, but bones rarely change size: the stretch U = √(GᵀG) is theirs in
-// common. So A takes its stretch from the bone whose U is nearest to all others' (weighted by how much of the
-// skin it moves), turn and place from the bone nearest the root. Armatures scaled by 0.01 or 100, and meshes
-// scaled along one axis, then rest uncompressed.
+// A skinned mesh has no position of its own: bone b maps a vertex x to world(b)·offset_b·x = G_b·x. If the
+// nodes are as they were at bind time, all G_b are equal, and A = G maps the mesh into the world. If not, the
+// G_b differ by motions; but bones rarely change size, so the stretch U = √(GᵀG) is the same for all of them.
+// So A takes its stretch from the bone whose U is nearest to the others' (weighted by the share of the skin
+// that it moves), and rotation and position from the bone nearest the root. Armatures scaled by 0.01 or 100,
+// and meshes scaled along one axis, are then not compressed at rest.
 #include "scene/instances.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 namespace plisse::scene {
 namespace {
 
-// A matrix whose volume is this small against its size is taken as singular.
+// A matrix whose determinant is this small relative to its size counts as singular.
 constexpr double singular = 1e-9;
 
 bool invertible(const glm::dmat4& m) {
@@ -47,7 +47,7 @@ Eigen::Matrix3d stretch_of(const Eigen::Matrix3d& m) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.transpose() * m).operatorSqrt();
 }
 
-// The matrix A of a skinned mesh (head of this file); nothing where no bone gives one.
+// The matrix A of a skinned mesh (see the top of this file); nothing where no bone defines one.
 std::optional<glm::dmat4> bind_matrix(const io::Mesh& mesh, const std::vector<glm::dmat4>& world) {
   struct Candidate {
     glm::dmat4 matrix;
@@ -81,8 +81,8 @@ std::optional<glm::dmat4> bind_matrix(const io::Mesh& mesh, const std::vector<gl
   const Candidate& root =
       *std::min_element(candidates.begin(), candidates.end(),
                         [](const Candidate& a, const Candidate& b) { return a.node < b.node; });
-  // As it is, where the two agree to the rounding of single-precision files: meshes on one skeleton then
-  // share A to the last bit, and with it their palette entries.
+  // Unchanged where the two agree within the rounding of single-precision files: meshes on one skeleton then
+  // have exactly the same A, and so the same palette entries.
   if ((root.stretch - typical->stretch).norm() <= 1e-5 * typical->stretch.norm()) return root.matrix;
   const Eigen::Matrix3d turn = eigen(glm::dmat3(root.matrix)) * root.stretch.inverse();
   glm::dmat4 result(glm3(turn * typical->stretch));
@@ -128,13 +128,14 @@ class Gatherer {
   }
 
  private:
-  // Where an instance comes to lie: mesh → bind, and the palette entry of each bone (one where rigid).
+  // The placement of an instance: mesh → bind, and the palette entry of each bone (a single one if rigid).
   struct Placed {
     glm::dmat4 matrix{1};
     std::vector<std::uint32_t> entries;
   };
 
-  // The entry with this node and matrix, old or new. Equal up to the rounding of single-precision files.
+  // The entry with this node and matrix, which is added if there is none. Matrices are equal within the
+  // rounding of single-precision files.
   std::uint32_t entry(int node, const glm::dmat4& right) {
     const auto same = [&](const PaletteEntry& known) {
       if (known.node != node) return false;
@@ -172,8 +173,8 @@ class Gatherer {
     return placed;
   }
 
-  // Only the moving ancestor's motion since the first frame counts, so that neighbours under one of them can
-  // weld.
+  // Uses only the motion of the moving ancestor since the first frame, so that vertices with the same
+  // ancestor can be welded.
   Placed place_rigid(int node) {
     const int moving = rig_.moving_ancestor(node);
     if (moving < 0) return {first_[static_cast<std::size_t>(node)], {entry(-1, glm::dmat4{1})}};
@@ -185,7 +186,7 @@ class Gatherer {
                     {entry(moving, glm::inverse(world[static_cast<std::size_t>(moving)]))}};
     };
     if (auto placed = place(first_)) return *placed;
-    // It starts flat or invisible (scale 0): it rests as it first appears.
+    // It starts flat or invisible (scale 0): its rest pose is that of its first appearance.
     for (const double time : times_)
       if (auto placed = place(rig_.world(time))) return *placed;
     if (auto placed = place(default_)) return *placed;
@@ -211,12 +212,12 @@ class Gatherer {
   void add_vertices(const io::Mesh& mesh, std::size_t id, bool cached, std::size_t first_target) {
     WeldInput& vertices = result_.vertices;
     const glm::dmat3 linear(placed_.matrix);
-    // Normals go by the inverse transpose, mirrors included: outside stays outside.
+    // Normals are transformed by the inverse transpose, mirrors included: the outside remains outside.
     const glm::dmat3 for_normals = glm::transpose(glm::inverse(linear));
     const auto first = static_cast<std::uint32_t>(vertices.positions.size());
     std::vector<std::uint32_t>& ids = ids_;
     ids.assign(mesh.positions.size(), std::numeric_limits<std::uint32_t>::max());
-    // Vertices that no triangle uses would be points of their own in every pass.
+    // Vertices without a triangle are left out; every pass would process them for nothing.
     for (const std::uint32_t v : mesh.triangles) ids[v] = 0;
     std::uint32_t next = first;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -267,7 +268,7 @@ class Gatherer {
         result_.triangles.push_back(ids_[mesh.triangles[t + corner]]);
   }
 
-  // Deltas lie target by target over all vertices, so they are laid out once the count is known.
+  // Deltas are stored target after target for all vertices, so they are arranged when the count is known.
   void spread_deltas() {
     const std::size_t count = result_.vertices.positions.size();
     result_.vertices.target_count = result_.targets.size();
@@ -294,7 +295,7 @@ class Gatherer {
   std::vector<std::uint32_t> cache_offsets_;
   Instances result_;
   Placed placed_;
-  std::vector<std::uint32_t> ids_;  // mesh vertex → gathered vertex, of the instance at hand
+  std::vector<std::uint32_t> ids_;  // mesh vertex → gathered vertex, of the current instance
   std::vector<Deltas> deltas_;
 };
 

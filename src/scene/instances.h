@@ -1,5 +1,5 @@
-// All instances of all meshes of a model, brought into one space to be welded: the metres of the world at
-// bind time.
+// All instances of all meshes of a model, transformed into one space for welding: metres of the world at bind
+// time.
 #pragma once
 
 #include <cstdint>
@@ -32,15 +32,15 @@ struct Instances {
   std::vector<glm::dvec3> normals;  // unit, in the space of bind; 0 where the file has none
   std::vector<glm::vec2> uvs, normal_uvs;
   std::vector<glm::vec4> colours;
-  std::vector<std::uint32_t> cache_index;  // vertex over all meshes of the model, as VertexCache counts
-  std::vector<std::uint32_t> triangles;    // wound so that area normals point where the file's do
+  std::vector<std::uint32_t> cache_index;  // vertex number over all meshes of the model, as in VertexCache
+  std::vector<std::uint32_t> triangles;    // in the order for which area normals agree with the file's
   std::vector<Part> parts;
   std::vector<PaletteEntry> palette;
   std::vector<MorphSource> targets;
 };
 
-// `times`: the frames of the clip in seconds; a rigid instance rests where it is in the first of them (in
-// which its matrix can be inverted). A vertex cache takes the place of bones, nodes and targets.
+// `times`: the frames of the clip in seconds; the rest position of a rigid instance is that of the first
+// frame in which its matrix can be inverted. A vertex cache replaces bones, nodes and targets.
 Instances gather_instances(const io::Model& model, const Rig& rig, const std::vector<double>& times);
 
 }  // namespace plisse::scene

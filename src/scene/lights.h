@@ -1,4 +1,4 @@
-// The three lights of a picture: key, fill and rim, which stand relative to the camera.
+// The three lights of a picture, key, fill and rim, whose directions are relative to the camera.
 #pragma once
 
 #include <array>

@@ -16,7 +16,8 @@
 namespace plisse::scene {
 namespace {
 
-// Panels that nobody has placed, beside one another: a tenth of the widest apart, their lower edges level.
+// Panels without a placement, in a row: a tenth of the widest apart, with their lower edges at the same
+// height.
 std::vector<sizing::Placement> row_of(const std::vector<sizing::Panel>& panels) {
   std::vector<glm::dvec2> lows, sizes;
   double widest = 0;

@@ -1,5 +1,5 @@
-// A scene's model: the file it names, or the panels it names in place of a mesh (docs/sizing.md), meshed as
-// fine as their fabrics ask for.
+// A scene's model: the file that it names, or panels in place of a mesh (docs/sizing.md), meshed as finely as
+// their fabrics need.
 #pragma once
 
 #include "config/settings.h"
@@ -8,12 +8,13 @@
 
 namespace plisse::scene {
 
-// One mesh a panel, uv its panel coordinates in metres, vertices where the panels are placed: panels of a
-// file that places none stand in a row. What seams join is one vertex, halfway between the panels; its number
-// is the one that `plisse drape` gives it, so that a cache of a drape goes over it. Throws Error(bad_input).
+// One mesh for each panel, with panel coordinates in metres as uv and vertices in the placed panels; if the
+// file places none, the panels are put in a row. Vertices joined by a seam are one vertex, halfway between
+// the panels. Vertex numbers are those of `plisse drape`, so that the cache of a drape fits. Throws
+// Error(bad_input).
 io::Model load_model(const config::SceneSettings& scene);
 
-// How a scene wants its model read.
+// The scene's options for reading its model.
 io::ImportOptions import_options(const config::SceneSettings& scene);
 
 }  // namespace plisse::scene

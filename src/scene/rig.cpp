@@ -22,10 +22,10 @@ Rig::Parts Rig::take_apart(const glm::dmat4& local) {
   parts.translation = glm::dvec3(local[3]);
   glm::dmat3 linear(local);
   for (int axis = 0; axis < 3; ++axis) parts.scale[axis] = glm::length(linear[axis]);
-  // A mirror goes into the scale, so that a rotation is left.
+  // A reflection is put into the scale, so that the rest is a rotation.
   if (glm::determinant(linear) < 0) parts.scale.x = -parts.scale.x;
   for (int axis = 0; axis < 3; ++axis) {
-    if (parts.scale[axis] == 0) return parts;  // flat: there is no telling how it was turned
+    if (parts.scale[axis] == 0) return parts;  // flat: its rotation cannot be determined
     linear[axis] /= parts.scale[axis];
   }
   parts.rotation = glm::normalize(glm::quat_cast(linear));

@@ -10,10 +10,10 @@ namespace plisse::scene {
 
 class Rig {
  public:
-  // Copies what it needs; `clip` may be null.
+  // Copies the data that it needs; `clip` may be null.
   Rig(const io::Model& model, const io::Clip* clip);
 
-  // World matrix of every node, in the clip or where nothing moves them (metres).
+  // World matrix of every node in the clip, or without motion (metres).
   std::vector<glm::dmat4> world(double time) const;
   std::vector<glm::dmat4> world_at_default() const;
 
@@ -21,11 +21,11 @@ class Rig {
   std::vector<double> morph_weights(int node, double time) const;
   const std::vector<double>& default_morph_weights(int node) const;
 
-  // The node itself or the nearest above it that the clip moves; −1 where nothing does.
+  // The node itself or its nearest ancestor that the clip moves; −1 where there is none.
   int moving_ancestor(int node) const;
 
  private:
-  // A node's own matrix taken apart, for channels that move only some of its parts.
+  // A node's own matrix as translation, rotation and scale, for channels that animate only some of these.
   struct Parts {
     glm::dvec3 translation{0};
     glm::dquat rotation{1, 0, 0, 0};

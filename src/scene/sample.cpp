@@ -6,8 +6,8 @@
 namespace plisse::scene {
 namespace {
 
-// Where a time stands: between keys `before` and `before + 1`, at `part` of the way; part 0 on and outside
-// keys.
+// The position of a time: between keys `before` and `before + 1`, at the fraction `part`; part is 0 on keys
+// and outside them.
 struct Place {
   std::size_t before = 0;
   double part = 0;
@@ -65,7 +65,7 @@ glm::dquat sample(const io::Keys<glm::dquat>& track, double time) {
   }
   const glm::dquat from = track.values[at.before] / glm::length(track.values[at.before]);
   const glm::dquat to = track.values[at.before + 1] / glm::length(track.values[at.before + 1]);
-  const glm::dquat value = glm::slerp(from, to, at.part);  // the shorter way round
+  const glm::dquat value = glm::slerp(from, to, at.part);  // along the shorter arc
   return value / glm::length(value);
 }
 

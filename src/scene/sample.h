@@ -1,6 +1,6 @@
 // Values of animation tracks between their keys, as glTF 2.0 defines them (specification, appendix C): linear
-// (spherical for rotations), step, cubic Hermite spline. Before the first key and after the last the track
-// holds.
+// (spherical for rotations), step, cubic Hermite spline. Before the first and after the last key the value is
+// constant.
 #pragma once
 
 #include <vector>

@@ -10,11 +10,11 @@
 
 namespace plisse::scene {
 
-// Scales the wavelengths, which are `settings.wavelength` but for irregularity, to what
-// settings.wavelength_map says: a PLY with x, y, z and wavelength of every vertex of the rest pose, whose
-// space `to_world` takes to metres and y up; or a picture in uv, whose brightness times alpha leads from
-// wavelength_low to wavelength. Vertices without uv keep theirs. Throws Error(bad_input) where vertices are
-// missing, a wavelength is not above 0, or a picture finds no uv.
+// Scales the wavelengths, which are `settings.wavelength` except for irregularity, to those of
+// settings.wavelength_map: a PLY with x, y, z and wavelength of every vertex of the rest pose, where
+// `to_world` maps its space to metres and y up; or a picture in uv, whose brightness times alpha interpolates
+// from wavelength_low to wavelength. Vertices without uv keep their wavelength. Throws Error(bad_input) where
+// vertices are missing, a wavelength is not above 0, or a picture is given for a model without uv.
 void take_wavelengths(const Surface& surface, const config::WrinkleSettings& settings,
                       const glm::dmat4& to_world, VertexWaves& waves);
 

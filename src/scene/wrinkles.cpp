@@ -38,7 +38,7 @@ std::vector<std::uint32_t> vertices_of(const Surface& surface, bool wrinkling) {
   return ids;
 }
 
-// Distance along edges of the rest pose from the vertices of stiff parts, as far as `reach` (Dijkstra).
+// Distance along edges of the rest pose from the vertices of stiff parts, up to `reach` (Dijkstra).
 std::vector<double> distance_from_stiff(const Surface& surface, double reach) {
   std::vector<double> distance(surface.vertex_count(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, std::uint32_t>;
@@ -65,7 +65,7 @@ std::vector<double> distance_from_stiff(const Surface& surface, double reach) {
 
 // Smooth noise in about −1…1 at a point given in its own correlation lengths.
 double noise(const glm::dvec3& x, std::uint32_t seed, int channel) {
-  // Gradient noise is 0 on its lattice: an offset keeps regular meshes off it.
+  // Gradient noise is 0 on its lattice; the offset keeps vertices of regular meshes away from it.
   const glm::vec3 p(x + glm::dvec3(0.37 + 17.0 * channel, 0.61, 0.83));
   const double value =
       static_cast<double>(stb_perlin_noise3_seed(p.x, p.y, p.z, 0, 0, 0, static_cast<int>(seed & 0xffU)));

@@ -1,4 +1,4 @@
-// Where a surface wrinkles and how: selection of parts, wavelength, the fade toward stiff parts,
+// The wave parameters of a surface: selection of parts, wavelength, the fade toward stiff parts,
 // irregularity.
 #pragma once
 
@@ -12,12 +12,11 @@ namespace plisse::scene {
 // neither a mesh nor a material, listing those there are.
 void select_parts(Surface& surface, const config::WrinkleSettings& settings);
 
-// W when the scene names none: the mean edge of the wrinkling parts, kept between 1/80 and 1/12 of the rest
-// diagonal.
+// The default W: the mean edge length of the wrinkling parts, limited to 1/80 … 1/12 of the rest diagonal.
 double default_wavelength(const Surface& surface);
 
-// The wrinkles of every vertex: mask fades from 0 on parts switched off to the strength within one wavelength
-// along the edges, so that no wave runs through a cuff or a seam; irregularity varies wavelength and height
+// The wrinkles of every vertex: the mask grows from 0 on excluded parts to the strength over one wavelength
+// along the edges, so that no wave continues into a cuff or a seam; irregularity varies wavelength and height
 // by up to a quarter and place by up to a quarter of a wavelength, smoothly over about three wavelengths.
 // Needs surface.neighbours.
 VertexWaves vertex_waves(const Surface& surface, const config::WrinkleSettings& settings, double wavelength);
