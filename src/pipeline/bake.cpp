@@ -1,4 +1,4 @@
-// plisse bake: the wrinkles of a frame as maps over the model's own uv, for the coarse mesh to wear.
+// plisse bake: the wrinkles of a frame as maps in the model's own uv, for use on the coarse mesh.
 #include "pipeline/bake.h"
 
 #include <fmt/format.h>
@@ -30,13 +30,13 @@ namespace {
 
 constexpr int widened = 16;  // texels: four levels of mip maps
 
-// What the maps hold at one texel.
+// The values of the maps at one texel.
 struct Texel {
   double height = 0;           // metres
   glm::dvec3 normal{0, 0, 1};  // in the tangent basis, unit
 };
 
-// One number for render vertices with the same place, normal and uv: MikkTSpace takes them for one.
+// One number for render vertices with the same position, normal and uv: MikkTSpace treats them as one vertex.
 std::vector<std::uint32_t> tangent_vertices(const Surface& surface) {
   using Key = std::pair<std::uint32_t, std::array<float, 5>>;
   std::map<Key, std::uint32_t> numbers;
@@ -59,8 +59,8 @@ class Baker {
 
   const UvRaster& raster() const { return raster_; }
 
-  // One a texel of the raster; those outside of all islands stay flat.
-  // What a body would stop lies on it (`outside`: posed, or null).
+  // One per texel of the raster; texels outside all islands stay flat.
+  // Points that a body stops are on it (`outside`: posed, or null).
   std::vector<Texel> at(const pipeline::WaveSnapshot& snapshot, const pipeline::Outside* outside) const {
     const auto triangles = pipeline::reference_triangles(reference_, snapshot);
     const std::vector<CornerTangent> tangents = mikktspace(corners(triangles));
@@ -101,7 +101,8 @@ class Baker {
     return result;
   }
 
-  // Of cloth that was stopped: the body's, or its own without waves where it did not move at all.
+  // The normal of cloth that was stopped: the body's, or the cloth's without waves where it did not move at
+  // all.
   static glm::dvec3 lying(const pipeline::Outside& outside, const reference::Displaced& point, double share,
                           const Eigen::Matrix3d& normals, const glm::dvec3& b) {
     const glm::dvec3 own = to_glm(normals * Eigen::Vector3d(b.x, b.y, b.z));
@@ -110,8 +111,8 @@ class Baker {
     return glm::dot(out, own) < 0 ? -out : out;
   }
 
-  // The components from which a renderer gets this normal back: it interpolates tangent and normal and makes
-  // neither unit.
+  // The components for which a renderer computes this normal: it interpolates tangent and normal without
+  // normalising them.
   static glm::dvec3 in_basis(const glm::dvec3& normal, const CornerTangent* corner,
                              const Eigen::Matrix3d& normals, const glm::dvec3& b) {
     const glm::dvec3 tangent = b.x * corner[0].tangent + b.y * corner[1].tangent + b.z * corner[2].tangent;
@@ -119,7 +120,7 @@ class Baker {
     const glm::dmat3 basis(tangent, corner[0].sign * glm::cross(n, tangent), n);
     if (!(std::abs(glm::determinant(basis)) > 1e-9)) return {0, 0, 1};
     glm::dvec3 m = glm::inverse(basis) * normal;
-    m.z = std::max(m.z, 0.0);  // a map holds nothing that looks inward
+    m.z = std::max(m.z, 0.0);  // a normal map has no normals that point inward
     const double length = glm::length(m);
     return length > 0 ? m / length : glm::dvec3(0, 0, 1);
   }
@@ -131,7 +132,8 @@ class Baker {
   std::vector<std::uint32_t> vertices_;
 };
 
-// The largest height that any frame could have, metres: what the viewable map's black and white stand for.
+// The largest height that is possible in any frame, metres: white of the viewable map, and black its
+// negative.
 double largest_height(const pipeline::LoadedScene& scene) {
   double waves = 0, field = 0;
   for (std::size_t v = 0; v < scene.waves.wavelength.size(); ++v)

@@ -15,7 +15,7 @@ struct BakeRequest {
   bool height = true, normal = true;
   int texture_size = 2048;
   bool green_up = true;  // of the normal map; false: DirectX's
-  std::string outside;   // a body that the waves keep out of; empty: none
+  std::string outside;   // a body that the waves stay outside of; empty: none
   int device = -1;
   std::string shader_folder;
 };
@@ -26,8 +26,9 @@ struct BakeReport {
     int frame = 0;
   };
   std::vector<Output> outputs;
-  double scale_m = 0;  // the height of white in height's PNG, minus that of black
-  // The square of uv that the maps cover: from `corner` on, `side` long; (0, 0) and 1 but for repeating uv.
+  double scale_m = 0;  // white is this height in the height PNG, black its negative
+  // The square of uv that the maps cover: from `corner` on, `side` long; (0, 0) and 1 except for repeating
+  // uv.
   glm::dvec2 corner{0};
   int side = 1;
   std::size_t covered = 0, overlapping = 0;  // texels
@@ -35,9 +36,9 @@ struct BakeReport {
   double wall_s = 0;
 };
 
-// The wrinkles of each frame over the uv of those parts that wrinkle: heights along the posed mesh's normals
-// (EXR in metres, and a PNG to look at), and normals in its MikkTSpace basis. Throws Error(bad_input) where
-// uv is missing or reaches over more than most_tiles; islands that overlap are a warning.
+// The wrinkles of each frame in the uv of the wrinkling parts: heights along the posed mesh's normals (EXR in
+// metres, and a viewable PNG), and normals in its MikkTSpace basis. Throws Error(bad_input) where uv is
+// missing or reaches over more than most_tiles; islands that overlap are a warning.
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame);
 
 }  // namespace plisse::pipeline

@@ -24,7 +24,8 @@ constexpr double most_triangles = 4e6;
 // The most waves on each edge of the welded surface.
 class EdgeWaves {
  public:
-  // Squeezed cloth keeps its waves, so the rest pose tells; but what the bias gathers it gathers at rest.
+  // Compression does not change the number of waves, so it follows from the rest pose; but the bias gathers
+  // cloth at rest already.
   explicit EdgeWaves(const LoadedScene& scene) {
     const Surface& surface = scene.surface();
     const VertexWaves& waves = scene.waves;
@@ -75,8 +76,8 @@ class EdgeWaves {
   std::unordered_map<std::uint64_t, double> most_;
 };
 
-// How many pixels a length of one at rest (metres) takes at most in the scene's pictures: held against the
-// eye as near as the clip's bounds come, and stretched by half.
+// The largest number of pixels that a length of one metre at rest may have in the scene's pictures: at the
+// shortest distance of the clip's bounds from the eye, and stretched by half.
 double most_pixels_a_metre(const LoadedScene& scene) {
   const auto& output = scene.settings.output;
   const int frames = scene.settings.camera.name.empty() ? 1 : scene.animation.timeline().frame_count;
@@ -158,8 +159,8 @@ DisplacedSurface Displacement::at(const WaveSnapshot& snapshot) const {
     }
   });
 
-  // Where triangles meet they agree on height and place but for rounding, and on the normal where the base is
-  // flat; the mean is for all of them.
+  // Adjacent triangles agree in height and position up to rounding, and in the normal where the base is flat;
+  // all of them take the mean.
   DisplacedSurface result;
   result.positions.assign(mesh_.position_count, glm::dvec3(0));
   result.base = result.positions;

@@ -1,5 +1,5 @@
-// A scene's wrinkles as geometry: its surface split finely, and moved by the waves of a moment, in double
-// precision (passes/displacement.h does the latter on the GPU).
+// A scene's wrinkles as geometry: its surface, split finely and displaced by the waves of one moment in
+// double precision (passes/displacement.h displaces on the GPU).
 #pragma once
 
 #include "mesh/subdivide.h"
@@ -9,13 +9,13 @@
 
 namespace plisse::pipeline {
 
-// How often edges have to be halved so that a wave has eight segments or more on the longest edge, whatever
-// frame; fewer where that made more than four million triangles (a warning says so). 0 without waves.
+// How often edges have to be halved so that a wave on the longest edge has at least eight segments in all
+// frames; less often where there would be more than four million triangles (with a warning). 0 without waves.
 int levels_for(const LoadedScene& scene);
 
-// The scene's surface with every edge halved as often as the waves of its own need it, whatever frame, and no
-// further than to a pixel of the scene's pictures: cloth without waves stays as coarse as it is. All edges
-// are halved less often where there were more than four million triangles (a warning says so).
+// The scene's surface with every edge halved as often as its own waves need in all frames, but not below a
+// pixel of the scene's pictures: cloth without waves stays coarse. All edges are halved less often where
+// there would be more than four million triangles (with a warning).
 Subdivision split_as_needed(const LoadedScene& scene);
 
 class Displacement {
@@ -24,7 +24,7 @@ class Displacement {
   Displacement(const LoadedScene& scene, Subdivision mesh);
 
   const Subdivision& mesh() const { return mesh_; }
-  // In model units; `metres` takes them to the world. Throws Error(check_failed) where something is not
+  // In model units; `metres` converts them to the world. Throws Error(check_failed) where something is not
   // finite.
   DisplacedSurface at(const WaveSnapshot& snapshot) const;
   DisplacedSurface at(const passes::SurfaceBuffers& surface) const { return at(read_snapshot(surface)); }

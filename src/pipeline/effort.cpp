@@ -22,9 +22,10 @@ void TimeBudget::spent(double milliseconds) {
   if (!std::exchange(warm_, true)) return;
   Cost& here = cost_[rung_];
   const bool first = here.mean <= 0;
-  // Frames of one effort differ (an interval crushes now and then), so one alone decides little.
+  // Times of one effort vary (with an interval, only some frames are crushed), so a single frame has little
+  // weight.
   here.mean = first ? milliseconds : 0.75 * here.mean + 0.25 * milliseconds;
-  // Both were taken one after the other only on the way down.
+  // Only when the effort was reduced are the two times from consecutive frames.
   if (first && fell_) here.rise = cost_[rung_ - 1].mean / here.mean;
   fell_ = false;
   if (here.mean > allowed_) {
@@ -43,7 +44,7 @@ void ErrorBudget::moved(double radians) {
       effort_.interval = 1;
     else
       effort_.rounds = std::min(2 * effort_.rounds, most_rounds);
-  } else if (radians < 0.25 * allowed_) {  // half as many rounds leave about twice as much
+  } else if (radians < 0.25 * allowed_) {  // half as many rounds leave about twice the error
     if (effort_.rounds > 1)
       effort_.rounds = effort_.rounds / 2;
     else

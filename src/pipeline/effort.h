@@ -1,5 +1,5 @@
-// How much work a frame gets where a run is given a time (--budget) or an error (--max-error) in place of the
-// scene's own settings; such frames depend on the machine, or on the frames before, and carry no hash.
+// The work done for a frame when a run has a time (--budget) or an error (--max-error) in place of the
+// scene's own settings. Such frames depend on the machine, or on the frames before, and contain no hash.
 #pragma once
 
 #include <optional>
@@ -16,36 +16,37 @@ struct Effort {
   bool operator==(const Effort&) const = default;
 };
 
-// Gives up, one after the other, what is seen least: rounds beyond the first, every second and then every
-// fourth step of crush and relax, at last three of four samples; and takes it back as soon as it should fit.
+// Reduces the work in the order of its visible effect: first the rounds to one, then crush and relax to every
+// second and every fourth frame, last the samples from four to one. Restores it as soon as the time should
+// allow it.
 class TimeBudget {
  public:
   TimeBudget(const Effort& wanted, double milliseconds);
   const Effort& effort() const { return ladder_[rung_]; }
-  // What a frame with this effort took, from pose to picture in memory.
+  // The time of a frame with this effort, from pose to picture in memory.
   void spent(double milliseconds);
 
  private:
   struct Cost {
     double mean = 0;  // of the last few frames; 0: not tried yet
-    double rise = 1;  // of the rung above over this one, when it was left
+    double rise = 1;  // time of the next higher effort over this one, when it was left
   };
   double allowed_;
   std::vector<Effort> ladder_;
   std::vector<Cost> cost_;
   std::size_t rung_ = 0;
-  bool fell_ = false;  // to this rung, with the last frame
+  bool fell_ = false;  // to this effort, with the last frame
   bool warm_ = false;  // a run's first frame also pays for compiling
 };
 
-// As many rounds, and as long an interval, as keep what another round would still move the phases by below an
+// The fewest rounds and the longest interval for which another round would change the phases by less than the
 // error: the root mean square over set vertices, in radians.
 class ErrorBudget {
  public:
   static constexpr int most_rounds = 64, longest_interval = 4;
   ErrorBudget(const Effort& wanted, double radians) : allowed_(radians), effort_(wanted) {}
   const Effort& effort() const { return effort_; }
-  // What the last round of a step moved the phases by.
+  // The change of the phases in the last round of a step.
   void moved(double radians);
 
  private:

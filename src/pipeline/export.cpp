@@ -1,4 +1,4 @@
-// plisse export: a scene's frames as geometry, wrinkles and all.
+// plisse export: a scene's frames as geometry with wrinkles.
 #include "pipeline/export.h"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ void check_output(const std::string& pattern, const std::vector<int>& frames) {
   }
 }
 
-// All that stays the same from frame to frame.
+// Data that is the same for all frames.
 io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine) {
   const Surface& surface = scene.surface();
   io::MeshFile mesh;

@@ -13,7 +13,7 @@ struct ExportRequest {
   config::SceneSettings scene;
   std::string output;         // mesh_####.ply|obj|glb, or CACHE.pc2|mdd
   std::optional<int> levels;  // how often edges are halved; none: as the waves need it
-  std::string outside;        // a body that the waves keep out of; empty: none
+  std::string outside;        // a body that the waves stay outside of; empty: none
   int device = -1;
   std::string shader_folder;
 };
@@ -26,12 +26,12 @@ struct ExportReport {
   std::vector<Output> outputs;
   int levels = 0;
   std::size_t positions = 0, triangles = 0;
-  bool interrupted = false;  // meshes written so far stand; a cache does not
+  bool interrupted = false;  // meshes written so far are kept; a cache is not
   double wall_s = 0;
 };
 
 // The displaced surface of each frame: metres, y up. Meshes have normals, uv and the materials' names; a
-// cache counts the vertices as an OBJ of the same scene and levels does.
+// cache has the vertex order of an OBJ of the same scene and levels.
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame);
 
 }  // namespace plisse::pipeline

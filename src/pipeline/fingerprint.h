@@ -1,4 +1,5 @@
-// Fingerprints: what decides a frame's pixels and the state of the passes after a step (docs/contract.md).
+// Fingerprints: hashes of everything that a frame's pixels, and the state of the passes after a step, depend
+// on (docs/contract.md).
 #pragma once
 
 #include <vector>
@@ -12,9 +13,9 @@ namespace plisse::pipeline {
 
 class LoadedScene;
 
-// Decides the state before the first step: the surface, its waves, and the settings of crush and relax.
+// Of the state before the first step: the surface, its waves, and the settings of crush and relax.
 Hash start_hash(const LoadedScene& scene);
-// Decides what all frames have in common beyond their history: materials, textures, look, size.
+// Of what all frames have in common besides their history: materials, textures, look, size.
 Hash constants_hash(const LoadedScene& scene);
 
 void add_pose(Hash& hash, const scene::Pose& pose);

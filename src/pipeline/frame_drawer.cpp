@@ -10,7 +10,7 @@
 namespace plisse::pipeline {
 namespace {
 
-// The picture was made with premultiplied colours in linear light; PNG wants straight alpha.
+// The picture was made with premultiplied colours in linear light; PNG needs straight alpha.
 void straighten_alpha(std::vector<std::uint8_t>& rgba) {
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     const std::uint8_t alpha = rgba[i + 3];
@@ -97,7 +97,7 @@ void FrameDrawer::set_effort(const Effort& effort) {
 bool FrameDrawer::advance_to(int frame) {
   const int step = scene_.step_of_frame(frame), before = stepper_.step();
   if (!stepper_.advance_to(step)) return false;
-  // A camera of the model's own may move where the pose does not, and so may a body.
+  // A camera of the model may move while the pose does not change, and so may a body.
   const bool body_moves = geometry_ && geometry_->held && geometry_->held->outside.moves();
   stays_ = stepper_.unchanged() && before == step - 1 && picture_step_ == before &&
            scene_.settings.camera.name.empty() && !body_moves;

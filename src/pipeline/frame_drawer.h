@@ -1,5 +1,5 @@
-// Steps a scene to a frame and draws it: everything of a run that needs OpenGL. What cannot be seen or does
-// not change is left out, and counted.
+// Steps a scene to a frame and draws it: all of a run that needs OpenGL. Work that changes nothing visible is
+// left out and counted.
 #pragma once
 
 #include <map>
@@ -31,16 +31,16 @@ class FrameDrawer {
 
   Stepper& stepper() { return stepper_; }
   void set_effort(const Effort& effort);
-  // Steps on to a frame, with all between; false where the run was interrupted.
+  // Steps to a frame, with all frames in between; false where the run was interrupted.
   bool advance_to(int frame);
-  // The frame that it stands at; AOVs are written beside `entry.path`. Adds the stages' milliseconds.
+  // Draws the current frame; AOVs are written beside `entry.path`. Adds the stages' milliseconds.
   std::shared_ptr<Picture> draw(FrameReport& entry, const std::string& hash);
 
-  // What was left out, and how often.
+  // The kinds of work that were left out, and how often.
   std::map<std::string, int> skipped() const;
 
  private:
-  // Waves as geometry, as the render pass takes it: moved on the GPU, or here where a body holds it.
+  // Waves as geometry for the render pass: displaced on the GPU, or on the CPU if there is a body.
   struct Geometry {
     Geometry(const LoadedScene& scene, Subdivision split, const RenderRequest& request);
     void move(const passes::SurfaceBuffers& posed, int frame);
@@ -69,7 +69,7 @@ class FrameDrawer {
   std::map<int, gpu::Target> targets_;  // by samples
   int samples_;
   std::optional<AovWriter> aov_writer_;
-  std::shared_ptr<Picture> picture_;  // of the step before, for poses that stay
+  std::shared_ptr<Picture> picture_;  // of the step before, for poses that do not change
   int picture_step_ = 0, frame_ = 0;
   bool stays_ = false;
   int copied_ = 0, out_of_view_ = 0;

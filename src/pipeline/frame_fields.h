@@ -15,19 +15,19 @@ namespace plisse::pipeline {
 class FrameFields {
  public:
   FrameFields() = default;  // none
-  // The files that settings.bias.field names. `mask`: the part of each welded vertex that wrinkles. Throws
-  // Error(bad_input) where there are not as many as frames.
+  // The files that settings.bias.field names. `mask`: the strength of each welded vertex. Throws
+  // Error(bad_input) where their number is not that of the frames.
   FrameFields(const config::SceneSettings& settings, int frame_count, std::vector<double> mask);
 
   bool empty() const { return files_.empty(); }
   // The waves of a frame (from 1) on the surface whose welded vertices are at `positions` then, metres.
-  // Throws Error(bad_input) where the field is none of that surface.
+  // Throws Error(bad_input) where the field belongs to another surface.
   std::vector<FieldTriangle> over(const Surface& surface, const io::Model& model,
                                   const std::vector<glm::dvec3>& positions, int frame) const;
 
  private:
   std::filesystem::path mesh_;                         // the model's own file
-  std::vector<std::filesystem::path> files_, meshes_;  // meshes: for text files, the OBJ that each belongs to
+  std::vector<std::filesystem::path> files_, meshes_;  // meshes: for text files, the OBJ of each
   std::vector<double> mask_;
 };
 

@@ -17,7 +17,7 @@ FrameWriter::FrameWriter(bool behind_drawing) : behind_drawing_(behind_drawing) 
   try {
     for (std::size_t i = 0; i < std::min<std::size_t>(allowed, 4); ++i)
       threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {  // one does, more slowly
+  } catch (const std::system_error&) {  // one thread is enough, but slower
     if (threads_.empty()) throw;
   }
 }
@@ -42,7 +42,7 @@ void FrameWriter::finish() {
 
 void FrameWriter::work() {
 #ifdef __linux__
-  // What Linux calls a process here is this thread. Niceness adds to what the program was started with.
+  // On Linux this call sets the priority of this thread only. The niceness is added to that of the program.
   if (behind_drawing_) setpriority(PRIO_PROCESS, 0, std::min(19, getpriority(PRIO_PROCESS, 0) + 7));
 #endif
   while (true) {

@@ -14,12 +14,12 @@ class FrameWriter {
  public:
   // Must not throw.
   using Job = std::function<void()>;
-  // As many threads as a GPU needs, four, or as --threads allows. `behind_drawing`: at a lower priority, for
-  // where the driver draws on the CPU as well: frames are then encoded while the next one is prepared, which
-  // leaves a core idle. Throws std::system_error where not one thread can be started.
+  // Starts four threads, enough for a GPU, or as many as --threads allows. `behind_drawing`: with a lower
+  // priority, for drivers that draw on the CPU as well: frames are then encoded mainly while the next one is
+  // prepared, when a core is idle. Throws std::system_error where no thread can be started.
   explicit FrameWriter(bool behind_drawing);
   ~FrameWriter() { finish(); }
-  // Waits where two jobs a thread wait already: more would only hold memory.
+  // Waits while there are two waiting jobs per thread: more would only use memory.
   void submit(Job job);
   void finish();
 

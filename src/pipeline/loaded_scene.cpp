@@ -37,7 +37,7 @@ scene::Animation::Bounds bounds_of(const std::vector<glm::dvec3>& points) {
   return bounds;
 }
 
-// Does what takes in the file that a key names; an error says where the scene has that key.
+// Calls a function that reads the file of a key; errors get the key's place in the scene.
 template <typename Work>
 void for_key(const config::SceneSettings& scene, const std::string& key, const Work& work) {
   try {
@@ -102,8 +102,8 @@ void LoadedScene::take_field() {
     waves.field = paint::field_directly(surface(), rest, field, waves.mask);
 }
 
-// Each frame's field has all the waves of its surface: what that surface is compressed against the rest pose
-// is what the field was solved for, and no reason for more.
+// Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
+// the animation must not add waves.
 void LoadedScene::take_field_files() {
   fields_ = FrameFields(settings, animation.timeline().frame_count, waves.mask);
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
@@ -132,7 +132,7 @@ std::vector<glm::dvec3> LoadedScene::painted(const config::PaintSettings& paint)
 }
 
 paint::Screen LoadedScene::screen(const config::PaintStroke& stroke) const {
-  // An animation of its own: the scene's is asked for its frames in order.
+  // A second animation, because frames of the scene's own must be requested in order.
   scene::Animation posing(model, choice_of(settings));
   if (stroke.frame > posing.timeline().frame_count) {
     throw Error(ExitCode::bad_input, fmt::format("{}: there is no frame {}; the clip has {}", stroke.place,
@@ -167,8 +167,7 @@ double LoadedScene::lead_at(int step) const {
   if (step <= preroll_ + 1 || preroll_ == 0) return 0;
   const int left = timeline.frame_count - frame_of_step(step);  // frames until the last
   const int reach = std::min(timeline.frame_count / 3, static_cast<int>(timeline.frames_per_second));
-  // Equal shares of the way: what is left over after the last frame is one share, which the first frame
-  // makes.
+  // Equal steps: the remaining difference after the last frame is one step, the one to the first frame.
   return left < reach ? 1.0 / (left + 2) : 0.0;
 }
 

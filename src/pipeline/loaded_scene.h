@@ -1,4 +1,4 @@
-// A scene on the CPU: model, animation, surface, waves, view; and the fingerprints that name its frames.
+// A scene on the CPU: model, animation, surface, waves, view; and the fingerprints of its frames.
 #pragma once
 
 #include <deque>
@@ -39,27 +39,29 @@ class LoadedScene {
   // p of every welded vertex after these strokes (paint/canvas.h).
   std::vector<glm::dvec3> painted(const config::PaintSettings& paint) const;
 
-  // Whether every frame has a field of its own; waves.field is then that of the step taken last, at first
-  // frame 1's. A step that is taken is one whose pose may be asked for. Throws Error(bad_input) where the
-  // field is none of that frame's surface.
+  // Whether every frame has its own field; waves.field is then that of the last step, at first that of
+  // frame 1. The pose of the step must be available. Throws Error(bad_input) where the field belongs to
+  // another surface than that frame's.
   bool has_field_a_frame() const { return !fields_.empty(); }
   void take_field(int step);
-  // The carried field of all the clip, one call each; none where there is no such field.
+  // The carried field of each frame of the clip, in one call each; no call where there is none.
   void visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const;
 
-  // History: step s (from 1) is the s-th pose that the passes see; with `loop` one whole period comes first.
+  // History: step s (from 1) is the s-th pose of the passes; with `loop` one whole period comes first.
   int step_of_frame(int frame) const { return preroll_ + frame; }
   int frame_of_step(int step) const { return step <= preroll_ ? step : step - preroll_; }
-  // How a loop closes: the phases of the drawn period's first step are remembered, and in its last frames (a
-  // third of the clip, at most a second) each step moves this share of what is left toward them; 0 elsewhere.
+  // How a loop closes: the phases of the drawn period's first step are stored, and in its last frames (a
+  // third of the clip, at most a second) each step moves the phases toward them by this share of the
+  // remaining difference; 0 elsewhere.
   bool remembers_at(int step) const { return preroll_ > 0 && step == preroll_ + 1; }
   double lead_at(int step) const;
-  // The pose of a step, asked in order; a step may be asked again until a later one is dropped.
+  // The pose of a step, requested in order; a step may be requested again until a later one is dropped.
   const scene::Pose& pose(int step);
   void drop_poses_before(int step);
-  // Decides the state after a step: settings of the passes, the surface, and every pose so far.
+  // Hash of all that the state after a step depends on: settings of the passes, the surface, and every pose
+  // so far.
   Hash state_hash(int step);
-  // Decides the frame's pixels: the above, materials, camera, light, size.
+  // Hash of all that the frame's pixels depend on: the above, materials, camera, light, size.
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
@@ -73,7 +75,7 @@ class LoadedScene {
   int preroll_ = 0;
   scene::Animation::Bounds bounds_;
   Hash state_base_;
-  std::string constants_;          // of the hash of a frame, once one was asked for
+  std::string constants_;          // part of every frame's hash, made at the first use
   std::deque<scene::Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
   int first_pose_ = 1;
   std::vector<Hash> chain_;  // after each step

@@ -49,7 +49,7 @@ std::vector<passes::DrawPart> draw_parts(const LoadedScene& scene) {
     passes::DrawPart draw;
     draw.first_triangle = part.first_triangle;
     draw.triangle_count = part.triangle_count;
-    // A surface without a look of its own gets the scene's.
+    // A surface without its own material gets the scene's.
     const glm::vec3 plain(linear(scene.settings.shading.colour));
     draw.base_colour = glm::vec4(plain, 1);
     if (part.material >= 0) {

@@ -1,4 +1,4 @@
-// How a scene's surface looks: the choices of its shading, the material of each part, and the textures.
+// The appearance of a scene's surface: shading settings, the material of each part, and the textures.
 #pragma once
 
 #include <vector>

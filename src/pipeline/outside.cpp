@@ -18,16 +18,16 @@
 namespace plisse::pipeline {
 namespace {
 
-// Of a model about one unit large: far more than the rounding of files in single precision, and less than
-// shows.
+// For a model with a size of about one unit: far above the rounding of files in single precision, and too
+// small to be visible.
 constexpr double gap = 2e-6;
 
-// How far a way that begins outside leads before it enters: 1 where it does not.
+// The share of a path from outside before it enters the body: 1 where it does not.
 double entry(const shell::TriangleBody& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const auto enters = [&](double share) { return solid.distance(from + share * (to - from)).value <= 0; };
   double outside = 0, inside = solid.tree().first_hit(from, to);
   if (inside <= 1) return inside;
-  // A way may slip through between two triangles by rounding.
+  // By rounding, a path may pass between two triangles.
   if (!enters(1)) return 1;
   inside = 1;
   for (int i = 0; i < 50; ++i) {
@@ -75,12 +75,12 @@ Outside::Outside(const LoadedScene& scene, const std::string& body) : scene_(sce
 
 shell::TriangleBody Outside::body(int frame, const std::vector<glm::dvec3>& base) {
   const Surface& surface = animation_ ? animation_->surface() : scene_.surface();
-  std::vector<glm::dvec3> positions = base;  // begins with the welded vertices, which are all a part needs
+  std::vector<glm::dvec3> positions = base;  // begins with the welded vertices; a part needs only these
   if (animation_) {
     positions = scene::posed(surface, animation_->pose(std::min(frame, animation_->timeline().frame_count)));
     for (glm::dvec3& x : positions) x = scene_.units.world(x);
   }
-  // Only the vertices that the body has: another part's are no corners of it.
+  // Only the vertices of the body, not those of other parts.
   constexpr std::uint32_t none = ~std::uint32_t{0};
   std::vector<std::uint32_t> number(surface.vertex_count(), none);
   std::vector<glm::dvec3> places;

@@ -1,4 +1,4 @@
-// Keeps displaced cloth out of a body (--outside).
+// Keeps displaced cloth outside a body (--outside).
 #pragma once
 
 #include <optional>
@@ -13,27 +13,27 @@ namespace plisse::pipeline {
 
 class Outside {
  public:
-  // `body`: a mesh or material of the scene's own model, or a file of a model that is read as the scene's is
-  // (unit, up axis, frames a second) and has one frame or at least the clip's; closed. Throws
-  // Error(bad_input).
+  // `body`: a mesh or material of the scene's own model, or a model file, which is read with the scene's
+  // options (unit, up axis, frames a second) and must have one frame or at least as many as the clip; it must
+  // be closed. Throws Error(bad_input).
   Outside(const LoadedScene& scene, const std::string& body);
 
-  // Whether it may be another in another frame while the scene's own pose stays.
+  // Whether the body may move while the scene's own pose does not change.
   bool moves() const { return animation_ && animation_->timeline().frame_count > 1; }
 
-  // Cuts a point's way from its base short where it would enter the body; a base that lies inside already is
-  // moved only where that does not lead deeper. Points that were cut get the normals of the triangles around
-  // them. Everything in model units.
+  // Shortens a point's displacement from its base where it would enter the body; a base that is already
+  // inside is moved only where it does not get deeper. Points that were stopped get the normals of the
+  // triangles around them. Everything in model units.
   void hold(int frame, const Subdivision& mesh, DisplacedSurface& moved);
 
-  // The same point by point. First the body as it is in a frame; `welded` begins with the places of the
+  // The same for single points. First sets the body of a frame; `welded` begins with the positions of the
   // scene's own welded vertices.
   void take(int frame, const std::vector<glm::dvec3>& welded);
-  // How much of the way from a base is free, 1 where all of it is; 0 where it must not begin.
+  // The free share of a displacement from a base, 1 if all of it is free; 0 if the point must not move.
   double free_share(const glm::dvec3& base, const glm::dvec3& to) const;
   // The unit normal of the body nearest to a point, outward.
   glm::dvec3 normal_near(const glm::dvec3& x) const;
-  // Whether a triangle of the scene is the body's own, which nothing holds.
+  // Whether a triangle of the scene belongs to the body, which is not stopped.
   bool owns(std::size_t triangle) const;
 
  private:

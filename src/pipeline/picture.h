@@ -11,12 +11,12 @@
 
 namespace plisse::pipeline {
 
-// A finished picture and its PNG, which is made by whoever needs it first: a picture that stays for several
-// frames is compressed once. Many threads may ask.
+// A finished picture and its PNG, which is compressed at its first use: a picture of several equal frames is
+// compressed once. Thread-safe.
 class Picture {
  public:
   explicit Picture(io::Image image) : image_(std::move(image)) {}
-  // The file of a frame with this hash (none: empty), and whether it was this call that compressed it.
+  // The file of a frame with this hash (empty: none), and whether this call compressed it.
   std::pair<std::vector<std::uint8_t>, bool> png(const std::string& hash);
 
  private:

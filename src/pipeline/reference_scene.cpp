@@ -206,7 +206,7 @@ std::vector<reference::Triangle> reference_triangles(const ReferenceScene& scene
       triangle.normal_uv.col(c) = Eigen::Vector2f(vertex.normal_uv.x, vertex.normal_uv.y).cast<double>();
       triangle.colours.col(c) =
           Eigen::Vector4f(vertex.colour.r, vertex.colour.g, vertex.colour.b, vertex.colour.a).cast<double>();
-      // The rest normal's components ride in the posed frame.
+      // The rest normal's components in the posed frame.
       const Eigen::Vector3d m = to_eigen(glm::dvec3(vertex.normal));
       triangle.normals.col(c) = snapshot.frames.basis(v) * (scene.rest_frames.basis(v).transpose() * m) +
                                 snapshot.frames.normal.col(v) * scene.rest_frames.normal.col(v).dot(m);

@@ -1,5 +1,5 @@
-// A scene as the double-precision reference sees it: conversions from the pipeline's data and from what the
-// GPU holds, and the whole chain of passes stepped in the reference.
+// A scene for the double-precision reference: conversions from the pipeline's data and from the GPU's
+// buffers, and all passes stepped together in the reference.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct ReferenceScene {
 
   const LoadedScene& scene;
   reference::Topology topology;
-  reference::Frames rest_frames;  // those the passes were given
+  reference::Frames rest_frames;  // those that the passes use
   std::vector<std::uint32_t> tangent_neighbour;
   reference::SkinModel skin;
   Eigen::VectorXd wavelength, mask, initial_phases;
@@ -34,7 +34,7 @@ struct ReferenceScene {
   reference::RelaxSettings relax;
 };
 
-// One moment's waves, whoever computed them.
+// The waves of one moment, from the GPU or the reference.
 struct WaveSnapshot {
   Eigen::Matrix3Xd positions;
   reference::Frames frames;
@@ -58,13 +58,13 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
                                const passes::View& view, const std::vector<reference::Texture>& textures);
 std::vector<reference::Texture> reference_textures(const LoadedScene& scene);
 
-// All passes in double precision, each fed by the one before.
+// All passes in double precision, each with the results of the one before as input.
 class ReferenceChain {
  public:
   explicit ReferenceChain(const ReferenceScene& scene);
-  // `step` decides where a loop's phases are remembered and led (LoadedScene). `first_directions`: k of the
-  // run to compare with, an entry a vertex; a direction taken for the first time has the sign of that one,
-  // since its sign is free and the phases of the onset hang on it.
+  // `step` decides where a loop's phases are stored and approached (LoadedScene). `first_directions`: k of
+  // the run to compare with, an entry a vertex; a direction that is set for the first time takes the sign of
+  // that one, since its sign is arbitrary and the phases of the onset depend on it.
   void step(int step, const scene::Pose& pose, bool with_crush,
             const std::vector<Eigen::Vector2d>& first_directions);
   const WaveSnapshot& now() const { return now_; }

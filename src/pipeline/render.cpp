@@ -1,5 +1,5 @@
-// The run that makes pictures: steps the history, draws the frames that are wanted, and hands them to threads
-// that encode and write while the next one is drawn.
+// The run that makes pictures: steps the history, draws the requested frames, and passes them to threads that
+// encode and write while the next one is drawn.
 #include "pipeline/render.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@
 namespace plisse::pipeline {
 namespace {
 
-// What draws: driver and shaders.
+// The drawing part: driver and shaders.
 Hash driver_hash(const GlInfo& gl, const std::string& shader_folder) {
   Hash hash;
   hash.add(gl.vendor).add(gl.renderer).add(gl.version);
@@ -44,8 +44,8 @@ Hash driver_hash(const GlInfo& gl, const std::string& shader_folder) {
   return hash;
 }
 
-// Calls `work` and files what it throws with the frame. A frame that wants too much memory is that frame's
-// misfortune; any other error than these is the run's.
+// Calls `work` and records its errors in the frame's report. Too little memory is an error of that frame
+// alone; any other error ends the run.
 template <typename Work>
 void guarded(FrameReport& frame, const Work& work) {
   try {
@@ -73,7 +73,7 @@ ExitCode outcome(const std::vector<FrameReport>& frames) {
   return stands ? ExitCode::some_frames : ExitCode::try_again;
 }
 
-// --budget or --max-error at work, or neither.
+// The control of --budget or --max-error, or neither.
 class Governor {
  public:
   Governor(const RenderRequest& request, const config::SceneSettings& settings) {
@@ -97,8 +97,8 @@ class Governor {
   std::optional<ErrorBudget> error_;
 };
 
-// The stages' mean over frames that did, or did not, leave something out; nothing where there is no such
-// frame.
+// The stages' mean times over frames that did, or did not, leave something out; nothing where there is no
+// such frame.
 std::optional<double> mean_ms(const RenderReport& report, const std::vector<const char*>& stages,
                               const std::string& what, bool left_out) {
   double sum = 0;
@@ -118,8 +118,8 @@ std::optional<double> mean_ms(const RenderReport& report, const std::vector<cons
   return sum / frames;
 }
 
-// What was left out: of whole stages, times what they cost on average where they were not; of parts of a
-// picture, what pictures cost more where nothing was.
+// The time saved: for whole stages, their number times the average cost elsewhere; for parts of a picture,
+// the additional cost of pictures with nothing left out.
 std::map<std::string, double> saved_seconds(const RenderReport& report) {
   const std::map<std::string, std::vector<const char*>> whole = {
       {"unchanged poses", {"skin", "crush", "relax"}},
@@ -159,8 +159,8 @@ void check_budget(const RenderRequest& request) {
   if (!request.state_file.empty()) refuse("--state");
 }
 
-// What a body decides: the bytes of its files (what they name beside them is not looked at), or the name of a
-// part of the model.
+// The hash of a body: the bytes of its files (without files that these name), or the name of a part of the
+// model.
 std::string body_fingerprint(const std::string& body) {
   std::error_code ignored;
   std::vector<std::filesystem::path> files;
@@ -172,7 +172,7 @@ std::string body_fingerprint(const std::string& body) {
   return hash.hex();
 }
 
-// Displaced geometry has these of its own; the others are of single waves.
+// Displaced geometry has these AOVs; the others belong to single waves.
 void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
   if (!displaced) return;
   std::vector<std::string> sound, unsound;
@@ -185,7 +185,7 @@ void check_aovs(const std::vector<passes::Aov>& aovs, bool displaced) {
   }
 }
 
-// One run: what its stages share.
+// One run: the data that its stages share.
 class Run {
  public:
   Run(const RenderRequest& request, const FrameCallback& on_frame)
@@ -218,15 +218,15 @@ class Run {
   Hash driver_;
   std::string body_hash_, split_hash_;  // of what displaces
   std::optional<Subdivision> split_;
-  // Made when the first frame is drawn: a run that finds all frames done is quick.
+  // Made when the first frame is drawn, so that a run whose frames all exist is fast.
   std::optional<FrameDrawer> drawer_;
   RenderReport report_;
   std::mutex callback_mutex_;  // of the two below, and of callbacks
   int done_ = 0;
-  bool full_ = false;  // a frame could not be written: the next one would fare the same
+  bool full_ = false;  // a frame could not be written, and the next one could not either
 };
 
-// The scene and the driver, at the same time: a process of its own reads the model.
+// Loads the scene and the driver at the same time: a separate process reads the model.
 void Run::load() {
   auto loading =
       std::async(std::launch::async, [&] { return std::make_unique<LoadedScene>(request_.scene); });
@@ -235,7 +235,7 @@ void Run::load() {
   } catch (const Error&) {
     no_context_ = std::current_exception();
   }
-  scene_ = loading.get();  // what is wrong with the scene is told first
+  scene_ = loading.get();  // errors of the scene are reported first
   frames_ = config::select_frames(scene_->settings.model.frames, scene_->animation.timeline().frame_count);
   config::check_frame_paths(scene_->settings.output.path, frames_);
   aovs_ = parse_aovs(request_.aovs);
@@ -261,7 +261,7 @@ void Run::begin_report() {
   report_.frames.resize(frames_.size());
 }
 
-// The whole clip decides how a displaced surface is split, so it is a part of each frame's hash.
+// The splitting of a displaced surface depends on the whole clip, so it is a part of each frame's hash.
 void Run::split() {
   if (!request_.displace) return;
   split_ = request_.levels ? subdivide(scene_->surface(), 1 << *request_.levels) : split_as_needed(*scene_);
@@ -283,7 +283,7 @@ bool Run::stands_already(FrameReport& entry, const std::string& hash) {
   return entry.skipped;
 }
 
-// Steps the history up to the frame and draws it; false where a signal came in between.
+// Steps the history up to the frame and draws it; false where a signal came before.
 bool Run::draw(FrameReport& entry, const std::string& hash, std::shared_ptr<Picture>& picture) {
   if (!drawer_) {
     drawer_.emplace(*scene_, request_, std::move(split_), aovs_, *context_, *timer_);
@@ -331,8 +331,8 @@ void Run::finished(std::size_t index) {
   if (on_frame_) on_frame_(done_, static_cast<int>(frames_.size()), report_.frames[index]);
 }
 
-// Frames that stand already, with --skip-existing, are left out. What was drawn is encoded and written by
-// threads while the next one is drawn.
+// With --skip-existing, existing frames are left out. Frames are encoded and written by threads while the
+// next one is drawn.
 void Run::draw_frames() {
   FrameWriter writer(context_->info().software);
   for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -365,7 +365,7 @@ void Run::draw_frames() {
 void Run::write_state() {
   try {
     drawer_->stepper().write_state(request_.state_file, driver_);
-  } catch (const Error& error) {  // the frames stand all the same
+  } catch (const Error& error) {  // the frames are complete nevertheless
     report_.outcome = ExitCode::no_output;
     if (report_.failure.empty()) report_.failure = error.what();
   }

@@ -1,4 +1,4 @@
-// plisse render, the story: load → weld → per frame pose → skin → crush → relax → render → write.
+// plisse render: load → weld → for each frame pose → skin → crush → relax → render → write.
 #pragma once
 
 #include <functional>
@@ -18,14 +18,14 @@ using GlInfo = gpu::Info;
 
 struct RenderRequest {
   config::SceneSettings scene;
-  bool skip_existing = false;     // trust a frame whose file is whole and whose hash is right
+  bool skip_existing = false;     // keep a frame whose file is complete and whose hash is right
   std::string state_file;         // empty: none
   bool displace = false;          // the waves as geometry in place of shading
   std::optional<int> levels;      // with displace: how often edges are halved; none: as the waves need it
   std::string outside;            // with displace: a body that the waves keep out of (pipeline/outside.h)
   std::vector<std::string> aovs;  // of pipeline/aov.h
   double budget_ms = 0;           // from pose to picture in memory; 0: none
-  double max_error = 0;           // that another round of relaxation may leave, radians; 0: none
+  double max_error = 0;           // the largest change by another round of relaxation, radians; 0: none
   int device = -1;                // −1: first that works
   std::string shader_folder;      // overrides the embedded shaders; empty: none
 };
@@ -37,7 +37,7 @@ struct FrameReport {
   std::map<std::string, double> ms;  // skin, crush, relax, render, readback, encode, write
   bool skipped = false;
   std::vector<std::string>
-      left_out;  // keys of RenderReport::skipped that this frame, or steps on the way to it, added to
+      left_out;  // keys of RenderReport::skipped that this frame, or the steps before it, increased
   std::optional<Effort> effort;    // with a budget
   std::string error;               // empty: rendered
   ExitCode code = ExitCode::fine;  // of the error
@@ -50,16 +50,16 @@ struct RenderReport {
   struct Object {
     std::string mesh, material;
   };
-  std::vector<Object> objects;  // in the order in which the AOV `object` counts them, from 1
+  std::vector<Object> objects;  // in the order of the numbers in the AOV `object`, from 1
   std::vector<FrameReport> frames;
   double wavelength_m = 0;
-  double fps = 0, wall_s = 0;  // frames that were drawn, by all the time it took
+  double fps = 0, wall_s = 0;  // fps: frames that were drawn, over the whole time
   std::map<std::string, int>
       skipped;  // what was left out and how often: "existing frames", "unchanged poses", …
   std::map<std::string, double> saved_s;  // estimates, where there was something to compare with
   bool interrupted = false;
-  // fine; no_output: a frame or the state could not be written, and the run stopped; some_frames: memory was
-  // too small for some, the others stand; try_again: for all.
+  // fine; no_output: a frame or the state could not be written, and the run stopped; some_frames: there was
+  // not enough memory for some, the others are complete; try_again: for all.
   ExitCode outcome = ExitCode::fine;
   std::string failure;  // the first error's text
 };

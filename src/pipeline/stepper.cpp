@@ -73,8 +73,8 @@ void Stepper::relax() {
 }
 
 void Stepper::leave_out_masked() {
-  // Beside a carried field what crush finds still counts: the wavenumbers of waves without height are among
-  // those that the steepest is chosen from (docs/passes.md, "Cavity").
+  // With a carried field the result of crush still has an effect: waves without height count in max |κ|
+  // (docs/passes.md, "Cavity").
   all_masked_ = scene_.waves.field.empty() &&
                 std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
 }
@@ -108,7 +108,7 @@ bool Stepper::advance_to(int step) {
     ++step_;
     const double share = scene_.lead_at(step_);
     const bool moved = !last_pose_ || *last_pose_ != pose;
-    // With an interval, a pose that holds may differ from the one that was crushed last.
+    // With an interval, a pose that does not change may differ from the last one that was crushed.
     const bool crushes = crush_runs_at(step_) && (!crushed_pose_ || *crushed_pose_ != pose);
     if (moved) {
       skin(pose);
@@ -156,7 +156,7 @@ struct StateHeader {
   char magic[8];
   std::int32_t step;
   std::uint32_t vertices;
-  char key[32];    // of everything that led here
+  char key[32];    // of everything that the state depends on
   char check[32];  // of the bytes that follow
 };
 
@@ -219,7 +219,7 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
     buffer->write(content.data() + at, buffer->bytes());
     at += buffer->bytes();
   }
-  // What crush left beside them.
+  // Other results of crush.
   const auto waves = surface_.waves.read<glm::vec4>();
   const std::uint32_t any_height =
       std::ranges::any_of(waves, [](const glm::vec4& wave) { return wave.z > 0; });

@@ -1,5 +1,5 @@
 // The passes' memory over time on the GPU (docs/contract.md, "State over time"): steps a scene's history in
-// order, so that a frame does not depend on which frames were asked for.
+// order, so that a frame does not depend on which frames were requested.
 #pragma once
 
 #include <filesystem>
@@ -27,19 +27,19 @@ class Stepper {
   // Stops between two steps where the run is interrupted (base/interrupt.h), and returns false.
   bool advance_to(int step);
   int step() const { return step_; }
-  // Whether the last step found the pose of the one before, bit for bit, and left everything as it was.
+  // Whether the pose of the last step was equal to the one before, bit for bit, so that nothing changed.
   bool unchanged() const { return unchanged_; }
   int unchanged_steps() const { return unchanged_steps_; }
-  // Steps that were crushed and had no wave to relax.
+  // Steps with crush but without a wave to relax.
   int idle_relaxations() const { return idle_relaxations_; }
-  // From now on crush and relax are left out where the mask leaves no vertex a wave: for who looks at nothing
-  // but heights, since the compression is not found then.
+  // From now on crush and relax are left out where no vertex can have a wave because of the mask. Only for
+  // uses that do not need the compression, which is not computed then.
   void leave_out_masked();
   int masked_steps() const { return masked_steps_; }
   // From now on, in place of the scene's own rounds and interval: frames then depend on when this was called.
   void set_relax(const config::RelaxSettings& relax) { settings_ = relax; }
-  // Whether the last step ended with a round of descent; and by what (root mean square over set vertices,
-  // radians) that moved the phases. Reads them back.
+  // Whether the last step ended with a round of descent, and the change of the phases in that round (root
+  // mean square over set vertices, radians). Reads them back.
   bool descended() const { return descended_; }
   double last_round_moved() const;
   // Whether crush and relax run at a step: every n-th frame of the clip.
@@ -48,13 +48,13 @@ class Stepper {
   // Positions, frames, waves and phases of the current step.
   passes::SurfaceBuffers& surface() { return surface_; }
 
-  // Called inside a step, after the stage named, for who wants to look between the passes. `posed`: skin is
-  // done; `begun`: fresh waves of a closing loop have their phases; `led`: so have all of its others.
+  // Called within a step, after the named stage, to inspect the data between the passes. `posed`: skin is
+  // done; `begun`: fresh waves of a closing loop have their phases; `led`: all other waves have, too.
   enum class Stage { posed, crushed, begun, relaxed, led };
   std::function<void(Stage)> observer;
 
-  // The state under a name, keyed by everything that led to it. Reading returns whether it fitted; if not, a
-  // warning says why and nothing changed.
+  // Writes and reads the state as a file, with a key of everything that it depends on. Reading returns
+  // whether the key agreed; if not, a warning gives the reason and nothing changes.
   void write_state(const std::filesystem::path& path, const Hash& driver);
   bool read_state(const std::filesystem::path& path, const Hash& driver, int last_usable_step);
 

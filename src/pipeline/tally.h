@@ -1,4 +1,4 @@
-// The errors of one kind, gathered over vertices or pixels and over frames.
+// The errors of one kind over vertices or pixels and over frames.
 #pragma once
 
 #include <algorithm>

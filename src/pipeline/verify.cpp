@@ -1,6 +1,6 @@
-// Shader against reference, pass by pass: each pass of the reference is fed what the GPU's own pass was fed,
-// so that the error of one is not charged to the next (docs/contract.md, "State over time", rule 6). The
-// drift of the whole chain is reported apart.
+// Compares shader and reference, pass by pass: each pass of the reference has the same input as the GPU's
+// pass, so that the error of one does not count in the next (docs/contract.md, "State over time", rule 6).
+// The error of all passes together is reported separately.
 #include "pipeline/verify.h"
 
 #include <fmt/format.h>
@@ -21,14 +21,15 @@ namespace plisse::pipeline {
 namespace {
 
 constexpr double flip_tolerance = 0.02;
-// Errors of each pass, within its own tolerance, meet again in the next frame, yet relaxation draws phases
-// together: the sums stay near 1e-4. Only where a threshold sends a vertex another way does it have a phase
-// of its own, up to π: four such vertices in a thousand are .2. A step that is left out, or a sign that is
-// wrong in every frame, makes a radian and more of all of them.
+// Errors of the passes, each within its own tolerance, accumulate over frames, but relaxation brings phases
+// together again: the sum stays near 1e-4. Only where a threshold is decided differently has a vertex another
+// phase, by up to π: four such vertices in a thousand give .2. A step that is left out, or a sign that is
+// wrong in every frame, gives a radian and more at all vertices.
 constexpr double chain_tolerance = 0.2;  // rad, root mean square
-// A verdict rests on more than half of what is seen. The outline takes about 4/n of a thing n pixels wide.
+// At least half of the visible pixels must be compared. The silhouette is about 4/n of an object that is n
+// pixels wide.
 constexpr double silhouette_limit = 0.5;
-constexpr int largest_side = 640;  // of the pictures compared: the reference is no renderer for 4k
+constexpr int largest_side = 640;  // of the pictures compared: the reference is too slow for 4k
 
 config::SceneSettings small(config::SceneSettings settings) {
   auto& output = settings.output;
@@ -127,7 +128,7 @@ class Verifier {
       fail_render(fmt::format("render: nothing in view to compare: no pixel of frame{} {} shows the model",
                               report.frames.size() == 1 ? "" : "s", fmt::join(report.frames, ", ")));
     }
-    // A pass stands where all its parts do.
+    // A pass is right where all its parts are.
     for (const auto& [name, part] : report.passes) {
       if (!part.ok) report.passes[name.substr(0, name.find('.'))].ok = false;
     }

@@ -11,14 +11,14 @@ namespace plisse::pipeline {
 
 struct PassComparison {
   double max_abs = 0, rms = 0, tolerance = 0;
-  double fraction = 1, within = 1;  // of the values that have to be, and are, within the tolerance
+  double fraction = 1, within = 1;  // share of values that must be, and that are, within the tolerance
   std::size_t compared = 0;         // values
-  bool ok = true;                   // of a pass: all its parts as well
+  bool ok = true;                   // of a pass: of all its parts as well
   std::string unit;                 // of max_abs: "of the bounding box", "of W", "rad", "of 255"
 };
 
 struct VerifyReport {
-  bool ok = true;            // false where interrupted: what was not compared has no verdict
+  bool ok = true;            // false where interrupted: values that were not compared have no result
   bool interrupted = false;  // by a signal
   GlInfo gl;
   std::vector<int> frames;                       // those compared
@@ -30,8 +30,8 @@ struct VerifyReport {
   std::vector<std::string> failures;  // one sentence each
 };
 
-// Shader against reference, each pass fed the GPU's own inputs (state over time, rule 6). Without a frame
-// selection it takes at most eight frames spread over the clip.
+// Compares shader and reference; the reference of each pass has the GPU's inputs (docs/contract.md, "State
+// over time", rule 6). Without a frame selection at most eight frames, evenly over the clip.
 VerifyReport verify(const RenderRequest& request, const FrameCallback& on_frame);
 
 }  // namespace plisse::pipeline

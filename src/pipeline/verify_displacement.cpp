@@ -8,7 +8,7 @@
 namespace plisse::pipeline {
 namespace {
 
-// Corners, edges and insides of triangles all have points, and waves many phases.
+// So there are points at corners, on edges and inside triangles, with many phases.
 constexpr int most_levels_compared = 2;
 constexpr std::size_t most_points = 4'000'000;  // 64 MB a list: drivers grant 128
 
@@ -22,14 +22,14 @@ int levels_compared(const Surface& surface) {
 }
 
 // --- tolerances, and why ---------------------------------------------------------------------------------
-// A place is a sum of a few products in single precision, for positions within one unit of the origin. Its
-// wave's phase is good to 1e-6 of the turns that lie between corner and point, ten and more where triangles
-// are long.
+// A position is a sum of a few products in single precision, for positions within one unit of the origin. The
+// phase of its wave has an error of 1e-6 of the turns between corner and point, of which there may be ten and
+// more on long triangles.
 constexpr double place_tolerance = 1e-6;   // of the bounding box
 constexpr double relief_tolerance = 1e-4;  // of the amplitude, or of the sky
-// Gradients of barycentric coordinates lose what slender triangles cancel, and second derivatives of the
-// waves come on top. Where the moved surface turns over, or a triangle stands upright, either of two answers
-// may be taken.
+// Gradients of barycentric coordinates lose digits by cancellation in slender triangles, and second
+// derivatives of the waves add to the error. Where the displaced surface turns over, or a triangle is
+// upright, either of two results is right.
 constexpr double normal_tolerance = 1e-3;  // of a unit vector
 constexpr double fraction = 0.999;
 

@@ -15,7 +15,7 @@ class DisplacementComparison {
   // The scene outlives this. Needs a current context.
   DisplacementComparison(const LoadedScene& scene, const std::string& shader_folder);
 
-  // Moves a finer surface by the waves in the buffers, there and here.
+  // Displaces a finer surface by the waves in the buffers, on the GPU and in the reference.
   void compare(const passes::SurfaceBuffers& surface, const WaveSnapshot& gpu);
   void report(std::map<std::string, PassComparison>& passes) const;
 

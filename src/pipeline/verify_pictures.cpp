@@ -17,17 +17,19 @@ using Eigen::Vector3d;
 using passes::RenderPass;
 
 // --- tolerances, and why ---------------------------------------------------------------------------------
-// Eight bits keep ½ of 255; interpolation and texture filtering of drivers keep about eight bits themselves.
+// Eight bits have an error of ½ of 255; interpolation and texture filtering of drivers have about eight bits
+// themselves.
 constexpr int image_tolerance = 4;  // of 255
 constexpr double image_fraction = 0.9975;
-// No textures but the ground map; where a shadow's edge is steep, a texel of it more or less.
+// There are no textures but the ground map; at a sharp edge of a shadow, the difference of one texel.
 constexpr int backdrop_tolerance = 2;  // of 255
-// Beside what an edge within reach of a texel's middle leaves open: single precision, as for positions.
+// In addition to the uncertainty of an edge within reach of a texel's centre: single precision, as for
+// positions.
 constexpr double depth_tolerance = 1e-5;  // of the map's range
-// Triangles seen edge on come and go with the snapping of their corners.
+// Triangles seen edge on may appear or vanish by the rounding of their corners.
 constexpr double depth_fraction = 0.999;
-// Half floats keep 2⁻¹¹, and are written three times over; a bilinear comparison beside a depth that is equal
-// but for rounding may go either way, of which softening leaves little.
+// Half floats have a relative error of 2⁻¹¹, and are written three times; a bilinear comparison with a depth
+// that is equal up to rounding may have either result, of which little remains after the blur.
 constexpr double ground_tolerance = 2e-3;  // of the light
 constexpr double ground_fraction = 0.9975;
 
@@ -68,7 +70,7 @@ PictureComparison::PictureComparison(const LoadedScene& scene, const ReferenceSc
 
 passes::Look PictureComparison::look() const {
   passes::Look result = look_of(scene_);
-  result.wireframe = false;  // lines over the surface are no part of the pass
+  result.wireframe = false;  // lines on the surface do not belong to the pass
   return result;
 }
 
@@ -134,7 +136,8 @@ void PictureComparison::compare(int frame, const passes::SurfaceBuffers& surface
   const io::Image image = composed(expected, behind);
   std::vector<std::uint8_t> mask(behind.size());
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    // Where either shows the surface: what only the shaders draw is as wrong as what they leave out.
+    // Where either shows the surface: a pixel that only the shaders draw is as wrong as one that they leave
+    // out.
     const int alpha = coverage.rgba[4 * i + 3];
     const bool seen = expected.triangle[i] >= 0 || alpha > 0;
     covered_ += seen ? 1 : 0;

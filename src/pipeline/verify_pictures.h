@@ -1,5 +1,5 @@
-// The pictures of the render pass against the reference's: the surface, what stands behind it, and the maps
-// that both take shadows from.
+// Compares the pictures of the render pass with the reference's: the surface, the backdrop, and the maps for
+// the shadows of both.
 #pragma once
 
 #include <map>
@@ -20,15 +20,15 @@ class PictureComparison {
   PictureComparison(const LoadedScene& scene, const ReferenceScene& reference,
                     const std::string& shader_folder);
 
-  // Draws what the buffers hold and compares; `chain`: the same moment come by in double precision alone.
+  // Draws the contents of the buffers and compares; `chain`: the same moment from double precision alone.
   void compare(int frame, const passes::SurfaceBuffers& surface, const WaveSnapshot& gpu,
                const WaveSnapshot& chain);
 
   // Of the worst frame.
   double mean_flip() const { return flip_; }
   double chain_flip() const { return chain_flip_; }
-  // Of the pixels where the shaders or the reference show the surface: those whose value an honest rasteriser
-  // may choose (reference/render.h), so that they are not compared.
+  // The share, among pixels where the shaders or the reference show the surface, of silhouette pixels
+  // (reference/render.h), which are not compared.
   double silhouette_fraction() const;
   // Over the pixels that show the surface.
   const Tally& image() const { return image_; }
@@ -37,8 +37,8 @@ class PictureComparison {
  private:
   passes::Look look() const;
   io::Image drawn(const passes::SurfaceBuffers& surface, const passes::View& view, bool transparent);
-  // The depth maps and the ground's as the last picture left them, compared with the reference's; the
-  // reference's own picture then takes its shadows from the GPU's maps (rule 6).
+  // Compares the depth maps and the ground map of the last picture with the reference's; the reference's own
+  // picture then uses the GPU's maps for its shadows (rule 6).
   reference::ShadowMap compare_shadow_map(const passes::View& view, const reference::Scene& scene);
   reference::GroundMap compare_ground_map(const passes::View& view, const reference::Scene& scene,
                                           const reference::Ground& ground, const reference::ShadowMap& key);

@@ -11,11 +11,11 @@ using Eigen::Index;
 using reference::Status;
 
 // --- tolerances, and why ---------------------------------------------------------------------------------
-// Single precision keeps 6e-8 of a number; a sum over eight influences of products of three keeps about ten
-// times that.
+// Single precision has a relative error of 6e-8; a sum over eight influences of products of three has about
+// ten times that.
 constexpr double skin_tolerance = 1e-6;  // of the bounding box
-// n' and t' come from differences of positions, which lose the ratio of edge to box, 1e-2 and less: 1e-7 /
-// 1e-2, times ten.
+// n' and t' come from differences of positions, whose relative error is larger by the ratio of box to edge,
+// 1e2 and more: 1e-7 / 1e-2, times ten.
 constexpr double frame_tolerance = 1e-4;  // of a unit vector, where the areas do not cancel below 1e-2
 // The same differences, squared by the regression.
 constexpr double r_tolerance = 1e-5;
@@ -25,26 +25,26 @@ constexpr double height_tolerance = 1e-5;  // of W, outside the dead zone
 constexpr double easing_tolerance = 1e-4;  // of W
 // w rises by 1 over h/W = .0625: sixteen times the larger of the two.
 constexpr double weight_tolerance = 1.6e-3;
-// A direction is as certain as the gap between the singular values: errors of 1e-6 over the gap, weighted by
-// it again.
+// The error of a direction is inversely proportional to the gap between the singular values: 1e-6 over the
+// gap, here weighted by the gap.
 constexpr double wave_vector_tolerance = 1e-4;
-// The same before its tolerance's factor of ten: where k·k̂ is nearer to 0, its sign is a matter of rounding.
+// The same without the tolerance's factor of ten: where k·k̂ is nearer to 0, rounding decides its sign.
 constexpr double sign_rounding = 1e-5;  // over the gap
 // Below this gap k follows k̂ only in part (docs/passes.md, "Direction").
 constexpr double certain_gap = 0.01;
-// Ten rounds multiply errors of 1e-6 turns by the rounds and the neighbours; where |d| passes ½ the wrap may
-// differ.
+// Ten rounds multiply errors of 1e-6 turns by the number of rounds and neighbours; where |d| is near ½ the
+// wrap may differ.
 constexpr double phase_tolerance = 1e-3;  // rad
 constexpr double phase_fraction = 0.999;  // of wrinkled vertices
 constexpr int phase_rounds = 10;
-// One step of a loop's closing is a handful of operations on numbers below π.
+// One step of closing a loop is a few operations on numbers below π.
 constexpr double lead_tolerance = 1e-5;  // rad
 
 double wrapped_difference(double a, double b) {
   return std::remainder(a - b, 2 * reference::pi);
 }
 
-// How well the posed triangles determine a normal: |Σ areas| over Σ |e||e|.
+// The condition of a normal of the posed triangles: |Σ areas| over Σ |e||e|.
 double normal_certainty(const reference::Topology& topology, const Eigen::Matrix3Xd& positions,
                         Index vertex) {
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
@@ -58,7 +58,7 @@ double normal_certainty(const reference::Topology& topology, const Eigen::Matrix
   return size > 0 ? area.norm() / size : 0;
 }
 
-// Whether another rounding may rightly give another status.
+// Whether with other rounding errors the status may be another.
 bool status_hangs_on_rounding(const reference::CrushResult& vertex, double dead_zone) {
   const double s = 1 - vertex.r;
   return std::abs(s - dead_zone) < r_tolerance || std::abs(s - dead_zone / 2) < r_tolerance ||
@@ -134,7 +134,7 @@ void WaveComparison::compare_skin(const WaveSnapshot& gpu) {
     skin_.add((positions.col(v) - gpu.positions.col(v)).norm() / std::max(box, 1e-30));
     if (normal_certainty(reference_.topology, gpu.positions, v) < 1e-2) continue;
     frame_.add((frames.normal.col(v) - gpu.frames.normal.col(v)).norm());
-    // The tangent's own condition: how much of its edge lies in the tangent plane.
+    // The condition of the tangent: the tangential share of its edge.
     const Eigen::Vector3d edge =
         gpu.positions.col(reference_.tangent_neighbour[static_cast<std::size_t>(v)]) - gpu.positions.col(v);
     const double part =
@@ -159,8 +159,9 @@ void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
       status_.add(gpu.states[v].status == e.status ? 0 : 1);
     if (e.direction.norm() == 0 || gpu.states[v].direction.norm() == 0) continue;
     const Eigen::Vector2d own = gpu.wavenumbers.col(i) * W, kept = before_.states[v].direction;
-    // The sign is free when a direction is first taken. Later it decides whether waves stand or pop: only
-    // where k·k̂ is 0 but for rounding is either right, and where k̂ then counts in part there are two k.
+    // The sign is arbitrary when a direction is first set. Later waves jump if it is wrong; either sign is
+    // right only where k·k̂ is 0 up to rounding, and where k̂ has only a partial weight there are then two
+    // valid k.
     const bool either = kept.norm() == 0 || std::abs(kept.dot(e.minimum)) * e.gap < sign_rounding;
     if (either && kept.norm() > 0 && e.gap < certain_gap) continue;
     double error = (own - e.wave_vector).norm();
@@ -180,7 +181,7 @@ void WaveComparison::compare_relax(const WaveSnapshot& before, const WaveSnapsho
   }
 }
 
-// Ten rounds whatever the scene's own number, on a copy of the phases.
+// Ten rounds, independent of the scene's own number, on a copy of the phases.
 void WaveComparison::compare_ten_rounds() {
   auto& surface = stepper_.surface();
   const auto phases = surface.phases.read<glm::vec2>();
@@ -217,7 +218,7 @@ double WaveComparison::chain_phase_difference(const WaveSnapshot& gpu) const {
     if (chain.states[i].status != Status::set || gpu.states[i].status != Status::set ||
         !(chain.weights[v] > 0))
       continue;
-    // Both signs of a direction are the same wave with the phase's sign turned.
+    // A direction with the opposite sign, and the phase with the opposite sign, are the same wave.
     const double sign = chain.states[i].direction.dot(gpu.states[i].direction) < 0 ? -1 : 1;
     const double difference = wrapped_difference(sign * gpu.phases[v], chain.phases[v]);
     squares += difference * difference;

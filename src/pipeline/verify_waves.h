@@ -1,5 +1,6 @@
-// Skin, crush and relax of a run on the GPU against the reference, each fed what the GPU's own pass was fed
-// (docs/contract.md, "State over time", rule 6), and the drift of the whole chain apart.
+// Compares skin, crush and relax on the GPU with the reference, whose passes have the inputs of the GPU's
+// passes (docs/contract.md, "State over time", rule 6); the error of all passes together is computed
+// separately.
 #pragma once
 
 #include <map>
@@ -17,14 +18,14 @@ class WaveComparison {
   WaveComparison(LoadedScene& scene, const ReferenceScene& reference, Stepper& stepper,
                  const std::string& shader_folder);
 
-  // To be called before a step; `looking`: its passes are compared.
+  // To be called before a step; `looking`: whether its passes are compared.
   void before_step(int step, bool looking);
-  // Inside it: the stepper's observer.
+  // Within a step: the stepper's observer.
   void observe(Stepper::Stage stage);
-  // After every step, looked at or not.
+  // After every step, compared or not.
   void after_step(int step);
 
-  // The same moment with every pass in double precision from the clip's start.
+  // The same moment with all passes in double precision from the clip's start.
   const WaveSnapshot& chain() const { return chain_.now(); }
   // Of the phases of the chain against those of `gpu`: radians, root mean square over wrinkled vertices.
   double chain_phase_difference(const WaveSnapshot& gpu) const;
@@ -48,9 +49,9 @@ class WaveComparison {
 
   scene::Pose pose_;
   bool looking_ = false;
-  double share_ = 0;                      // of the way that this step leads a loop's phases
+  double share_ = 0;                      // of the difference by which this step moves a loop's phases
   WaveSnapshot before_, crushed_, last_;  // before the step; after crush; at the last stage seen
-  WaveSnapshot remembered_;               // what a loop is led to
+  WaveSnapshot remembered_;               // the target of a closing loop
   Tally skin_, frame_;
   Tally r_, height_, easing_, weight_, wave_vector_, status_;
   Tally relax_, ten_rounds_, lead_;

@@ -1,4 +1,4 @@
-// Runs of a scene that make something other than pictures of its frames.
+// Runs of a scene whose results are not pictures of its frames.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,9 @@ struct Device {
   std::string shader_folder;
 };
 
-// Steps through the scene's history and calls `work` with each frame that is wanted (ascending) as the passes
-// left it; it returns the path to report. False where the run was interrupted before the last of them.
+// Steps through the scene's history and calls `work` for each requested frame (ascending) with the state of
+// the passes; `work` returns the path for the report. False where the run was interrupted before the last of
+// them.
 bool visit_frames(LoadedScene& scene, const std::vector<int>& frames, const Device& device,
                   const FrameCallback& on_frame,
                   const std::function<std::string(int frame, const passes::SurfaceBuffers& surface)>& work);
