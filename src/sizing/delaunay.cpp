@@ -57,8 +57,8 @@ Triangulation::Triangulation() {
 }
 
 std::uint32_t Triangulation::locate(GridPoint point, std::uint32_t start) const {
-  // The walk of the three sides, begun at another side each step: in a triangulation that is only constrained
-  // Delaunay a fixed order could go round in circles.
+  // The walk begins with another side in each step: in a constrained Delaunay triangulation, a fixed order of
+  // the three sides could lead in a circle.
   std::uint32_t current = start;
   for (std::uint32_t step = 0;; ++step) {
     const Triangle& triangle = triangles_[current];
@@ -104,7 +104,8 @@ void Triangulation::flip(Edge edge) {
   const int i = edge.corner, j = opposite.corner;
   const std::uint32_t p = old.vertex[i], a = old.vertex[next(i)], b = old.vertex[previous(i)],
                       q = other.vertex[j];
-  // Across a–p lies old's side facing b, across a–q other's facing b; likewise for b.
+  // The neighbour across a–p is that of old's side opposite to b, across a–q that of other's side opposite to
+  // b; likewise for b.
   const int old_b = previous(i), old_a = next(i), other_a = previous(j), other_b = next(j);
   triangles_[t] = {{p, a, q},
                    {other.neighbour[other_b], o, old.neighbour[old_b]},
@@ -131,7 +132,7 @@ bool Triangulation::flip_if_needed(Edge edge) {
                 points_[facing]) <= 0)
     return false;
   flip(edge);
-  // The four sides of the pair may now be wrong: p, q of the flip stand at corners 0, (1, 2) hold the rest.
+  // The four sides of the pair may now violate the Delaunay condition.
   const std::uint32_t t = edge.triangle, o = opposite.triangle;
   stack_.push_back({t, 0});
   stack_.push_back({t, 2});
@@ -248,21 +249,21 @@ void Triangulation::constrain(std::uint32_t a, std::uint32_t b, std::uint16_t ta
 }
 
 void Triangulation::constrain(std::uint32_t a, std::uint32_t b, std::uint16_t tag, int depth) {
-  // Rounding a crossing to the grid moves lines by one unit at most; that this makes them cross anew so many
-  // times over takes lines that lie in each other for their whole length.
+  // Rounding a crossing to the grid moves lines by at most one unit. New crossings could arise so many times
+  // only for lines that overlap along their whole length.
   if (depth > 64)
     throw Error(ExitCode::bad_input, "lines of the panel lie within each other and cannot be kept apart");
   while (a != b) a = force_piece(a, b, tag, depth);
 }
 
-// From a to the first vertex on the way to b; returns that vertex.
+// Makes an edge from a to the first vertex on the line to b; returns that vertex.
 std::uint32_t Triangulation::force_piece(std::uint32_t a, std::uint32_t b, std::uint16_t tag, int depth) {
   const auto keep = [&](Edge edge) {
     const std::uint16_t old = triangles_[edge.triangle].tag[edge.corner];
     set_tag(edge, old == free_edge ? tag : std::min(old, tag));
   };
   const GridPoint from = points_[a], to = points_[b];
-  // The side of a's triangles through which the way leaves.
+  // The side of a's triangles that the line crosses.
   Edge edge;
   for (std::uint32_t t = at_[a];;) {
     const Triangle& triangle = triangles_[t];
@@ -314,12 +315,12 @@ std::uint32_t Triangulation::force_piece(std::uint32_t a, std::uint32_t b, std::
       end = facing;
       break;
     }
-    // beyond: vertex[next] is w, vertex[previous] is u; u lies right of the way, w left.
+    // beyond: vertex[next] is w, vertex[previous] is u; u is on the right of the line, w on the left.
     edge = side > 0 ? Edge{beyond.triangle, next(beyond.corner)}
                     : Edge{beyond.triangle, previous(beyond.corner)};
   }
 
-  // Flip every crossed edge out of the way, later where its pair of triangles is not convex yet.
+  // Flips every crossed edge away; an edge whose pair of triangles is not convex yet is flipped later.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> fresh;
   while (!crossed.empty()) {
     const auto [u, w] = crossed.front();
@@ -387,7 +388,7 @@ bool Triangulation::move(std::uint32_t vertex, GridPoint point) {
 void Triangulation::legalise() {
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      if (triangles_[t].neighbour[i] < t) continue;  // looked at from its other side
+      if (triangles_[t].neighbour[i] < t) continue;  // handled from its other side
       flip_if_needed({t, i});
       settle();
     }

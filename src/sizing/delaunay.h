@@ -32,27 +32,27 @@ class Triangulation {
     std::array<std::uint32_t, 3> vertex{};  // counterclockwise
     std::array<std::uint32_t, 3>
         neighbour{};                     // across the edge opposite to vertex[i]; none: outside the frame
-    std::array<std::uint16_t, 3> tag{};  // of that edge: free_edge, or what `constrain` was told
+    std::array<std::uint16_t, 3> tag{};  // of that edge: free_edge, or the tag given to `constrain`
     bool inside = true;                  // see `mark_inside`; kept by insert and flips
   };
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   Triangulation();
 
-  // The new vertex, or the one that is there already. An edge it hits is split, both halves keep its tag.
+  // Returns the new vertex, or the existing one at this point. An edge through the point is split; both
+  // halves keep its tag.
   std::uint32_t insert(GridPoint point);
 
-  // Makes a–b a chain of edges with this tag (not free_edge). Where it meets a vertex it goes through it;
-  // where it crosses an edge with a tag, both get a vertex there; an edge that has a tag already keeps the
-  // smaller one.
+  // Makes a–b a chain of edges with this tag (not free_edge). It passes through vertices on the line; where
+  // it crosses an edge with a tag, both get a vertex; an edge with two tags keeps the smaller one.
   void constrain(std::uint32_t a, std::uint32_t b, std::uint16_t tag);
 
-  // Marks as inside the triangles that an odd number of edges with tags up to `last_outline` parts from the
-  // frame.
+  // Marks as inside the triangles that are separated from the frame by an odd number of edges with tags up to
+  // `last_outline`.
   void mark_inside(std::uint16_t last_outline);
 
-  // Moves a vertex unless a triangle round it would turn over or lose its area. The edges are not flipped:
-  // `legalise` does that for all at once.
+  // Moves a vertex, unless a triangle at it would turn over or lose its area. Edges are not flipped;
+  // `legalise` does that for all of them.
   bool move(std::uint32_t vertex, GridPoint point);
   void legalise();
 
@@ -60,7 +60,7 @@ class Triangulation {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   // Some triangle that has this vertex.
   std::uint32_t triangle_at(std::uint32_t vertex) const { return at_[vertex]; }
-  // The triangle that holds the point, reached by walking from `start`.
+  // The triangle that contains the point, found by walking from `start`.
   std::uint32_t locate(GridPoint point, std::uint32_t start) const;
 
  private:

@@ -22,12 +22,11 @@ struct Cut {
 
 struct Curve {
   Polyline line;
-  Domain::Line what;  // all but the shape
+  Domain::Line what;  // everything except the shape
   std::vector<Cut> cuts;
 };
 
-// Turns sharper than this are corners that the mesh must have; it is more than a circle of twelve points
-// turns.
+// Turns sharper than this are corners of the mesh; it is more than the turn in a circle of twelve points.
 constexpr double corner_angle = 31 * std::numbers::pi / 180;
 
 class Preparation {
@@ -92,7 +91,7 @@ class Preparation {
       if (const auto where = self_crossing(line))
         return problem(fmt::format("{} crosses itself at {}", name, place(*where)));
       const double perimeter = line.length();
-      // Below this an outline is a line there and back, to the last digits of its coordinates.
+      // An outline with less area is a line forth and back, up to the rounding of its coordinates.
       if (!(std::abs(signed_area(line)) > 1e-9 * perimeter * perimeter))
         return problem(name + " has no area");
       for (std::size_t i = 0; i < domain_.boundary.size(); ++i) {
@@ -113,8 +112,8 @@ class Preparation {
       domain_.high = glm::max(domain_.high, point);
     }
     tolerance_ = 1e-7 * glm::distance(domain_.low, domain_.high);
-    // What the mesh has to fill must be finite work: 2^24 cells is beyond what fits the grid's integers
-    // sensibly.
+    // The number of triangles must be limited: more than 2^24 cells cannot be resolved by the grid's
+    // integers.
     const double expected = std::abs(signed_area(domain_.boundary[0])) / (domain_.size * domain_.size);
     if (expected > 2e7)
       problem(fmt::format("is {:.3g} × {:.3g} m, which takes {:.2g} vertices; check its units",
@@ -139,7 +138,7 @@ class Preparation {
     return std::nullopt;
   }
 
-  // Brings an end of a line onto a curve that passes within a tenth of the size, and cuts the curve there.
+  // Moves an end of a line onto a curve within a tenth of the size, and cuts the curve there.
   void snap(dvec2& end, double reach) {
     Curve* nearest = nullptr;
     Cut cut;
@@ -155,7 +154,7 @@ class Preparation {
       }
     }
     if (!nearest) return;
-    // A vertex of the curve that is as near serves as well.
+    // Uses a vertex of the curve if it is as near.
     for (const dvec2& point : {nearest->line.start(cut.segment), nearest->line.end(cut.segment)}) {
       if (glm::distance(point, cut.point) <= tolerance_) {
         cut.share = point == nearest->line.start(cut.segment) ? 0 : 1;
@@ -200,7 +199,7 @@ class Preparation {
         problem(name + " lies outside the panel");
         continue;
       }
-      if (feature.rule == Feature::Rule::collision) continue;  // a size, not a line to keep
+      if (feature.rule == Feature::Rule::collision) continue;  // only a size, not a constraint
       Domain::Line what;
       what.curve = static_cast<int>(curves_.size());
       what.features = {static_cast<int>(f)};
@@ -222,7 +221,7 @@ class Preparation {
     }
   }
 
-  // Whether any of it lies in the panel.
+  // Whether any part of it is in the panel.
   bool touches(const Polyline& line) const {
     for (std::size_t i = 0; i < line.segment_count(); ++i) {
       if (domain_.inside(line.start(i)) || domain_.inside((line.start(i) + line.end(i)) / 2.0)) return true;
@@ -238,8 +237,8 @@ class Preparation {
     });
   }
 
-  // At a distance in the panel's own metres, with mitred corners; where the fold ends on the outline it goes
-  // a little further, to be cut there.
+  // At a distance in metres of the panel, with mitred corners; where the fold ends on the outline it is
+  // extended a little, to be cut there.
   Polyline parallel(const Polyline& line, double offset) const {
     std::vector<dvec2> p;
     for (const dvec2& point : line.points) p.push_back(domain_.to_panel * point);
@@ -300,7 +299,7 @@ class Preparation {
            corner_angle;
   }
 
-  // Equal places are one point, whichever curve they were found on.
+  // Equal positions are one point, on whichever curve they are.
   dvec2 merged(const dvec2& point) {
     for (const dvec2& known : junctions_) {
       if (glm::distance(known, point) <= tolerance_) return known;
@@ -309,7 +308,7 @@ class Preparation {
     return point;
   }
 
-  // The curve with its cuts as points; flags say where it is cut.
+  // The curve with its cuts as additional points; flags mark the cuts.
   void with_cuts(Curve& curve, std::vector<std::uint8_t>& breaks) {
     std::stable_sort(curve.cuts.begin(), curve.cuts.end(), [](const Cut& a, const Cut& b) {
       return std::pair(a.segment, a.share) < std::pair(b.segment, b.share);
@@ -329,7 +328,7 @@ class Preparation {
     auto cut = curve.cuts.begin();
     for (std::size_t i = 0; i < curve.line.points.size(); ++i) {
       const bool corner = is_corner(curve.line, i);
-      // A cut on the point just put takes its place: `put` sees to it.
+      // A cut at the last added point replaces it, which `put` does.
       if (line.points.empty() || glm::distance(line.points.back(), curve.line.points[i]) > tolerance_ ||
           corner)
         put(corner ? merged(curve.line.points[i]) : curve.line.points[i], corner);
@@ -345,7 +344,7 @@ class Preparation {
     curve.line = std::move(line);
   }
 
-  // Whether a piece lies on this line for its whole length.
+  // Whether a piece is on this line along its whole length.
   bool runs_along(const Polyline& piece, const Polyline& line) const {
     const auto on = [&](const dvec2& point) {
       for (std::size_t i = 0; i < line.segment_count(); ++i) {
@@ -368,7 +367,7 @@ class Preparation {
       const std::size_t count = curve.line.points.size();
       std::size_t first = 0;
       while (first < count && !flags[first]) ++first;
-      if (first == count) {  // a smooth closed curve that meets nothing
+      if (first == count) {  // a smooth closed curve that meets no other
         add_piece(curve, curve.line);
         continue;
       }
@@ -393,7 +392,7 @@ class Preparation {
 
   void add_piece(const Curve& curve, const Polyline& piece) {
     if (!curve.what.boundary) {
-      // What runs along an earlier curve is that curve's; `split` notes the feature there.
+      // A piece along an earlier curve belongs to that curve; `split` adds the feature to it.
       const auto end = curves_.begin() + curve.what.curve;
       if (std::any_of(curves_.begin(), end,
                       [&](const Curve& earlier) { return runs_along(piece, earlier.line); }))

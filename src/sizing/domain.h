@@ -1,4 +1,4 @@
-// A panel made ready for meshing: every line checked, cut where lines meet, and brought into working
+// A panel prepared for meshing: every line is checked, cut where lines meet, and transformed to working
 // coordinates, in which the fabric's own resolution is the same in all directions.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace plisse::sizing {
 
 struct Domain {
-  // A piece of the outline, a hole or a feature that meets other pieces at its ends only; closed where it
+  // A piece of the outline, of a hole or of a feature that meets other pieces only at its ends; closed if it
   // meets none.
   struct Line {
     Polyline shape;  // working coordinates
@@ -20,8 +20,7 @@ struct Domain {
     std::vector<int> features;  // that run along it, indices into Panel::features
     int fold = -1;              // of a fold's three lines: the feature, and which of them it is
     int fold_side = 0;          // −1, 0, 1
-    double seam_size =
-        0;  // working edge length that the other side of its seam asks for; 0: no finer than it is
+    double seam_size = 0;  // edge length in working coordinates for the other side of its seam; 0: no limit
   };
 
   glm::dmat2 to_working{1}, to_panel{1};  // linear: p ↦ to_working · p
@@ -36,7 +35,7 @@ struct Domain {
   bool inside(const glm::dvec2& working) const;
 };
 
-// Throws Error(bad_input), all that is wrong with the panel at once: outlines of no area or that cross
+// Throws Error(bad_input) with all problems of the panel at once: outlines of no area or that cross
 // themselves, holes outside, features of no length or wholly outside.
 Domain prepare(const Panel& panel, const SizingOptions& options);
 

@@ -1,4 +1,4 @@
-// Units of garment people and the table of fabrics.
+// Units of the garment industry and the table of fabrics.
 
 #include "sizing/fabric.h"
 
@@ -19,7 +19,8 @@ struct Unit {
   double factor;
 };
 
-// Units are written in many ways: without dots, stars, carets and spaces, ² as 2, ³ as 3, µ and μ as u.
+// Normalises the spelling of units: removes dots, stars, carets and spaces, ² becomes 2, ³ becomes 3, µ and μ
+// become u.
 std::string plain(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 9> spellings = {{{"·", ""},
                                                                                        {"*", ""},
@@ -40,7 +41,7 @@ std::string plain(std::string_view text) {
 
 std::optional<double> parse(std::string_view text, std::span<const Unit> units) {
   if (const auto number = parse_number(text)) return number;
-  // The unit begins behind the longest start of the text that is a number: "2e-6 N·m", "5 gf·cm²/cm".
+  // The unit begins after the longest prefix of the text that is a number: "2e-6 N·m", "5 gf·cm²/cm".
   for (std::size_t end = text.size(); end-- > 1;) {
     const auto number = parse_number(text.substr(0, end));
     if (!number) continue;
@@ -110,7 +111,7 @@ const std::vector<Fabric>& fabrics() {
     };
     list.push_back(isotropic("cantilever", 2e-6, 1e6));
     list.back().source = "D. Zhang et al., SIGGRAPH 2025, Fig. 18";
-    // Weft of pinkish-puff, warp with the bending of dark-blue: the pair that anisotropy is tested with.
+    // Weft of pinkish-puff, warp with the bending of dark-blue: the pair for tests of anisotropy.
     list.push_back({"two-way",
                     table + ": weft of pinkish-puff, warp of dark-blue",
                     {2e-6, 8e5},

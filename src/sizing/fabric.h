@@ -1,4 +1,4 @@
-// Fabrics by name, and the units in which people measure them. The one table that every command shares.
+// Fabrics by name, and their units of measurement. All commands share this table.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace plisse::sizing {
 
 struct Fabric {
   std::string name;    // as written in files: "wine-style"
-  std::string source;  // where the numbers are from
+  std::string source;  // the source of the numbers
   Stiffness weft;      // across the grain: a panel's x at grain 90°
   Stiffness warp;      // along the grain
   double poisson_ratio = 0.3;
@@ -22,7 +22,7 @@ struct Fabric {
   bool isotropic() const { return weft == warp; }
 };
 
-// The known fabrics; all from printed tables, their sources beside them.
+// The known fabrics, all from printed tables, with their sources.
 const std::vector<Fabric>& fabrics();
 const Fabric* find_fabric(std::string_view name);
 

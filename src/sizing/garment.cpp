@@ -19,7 +19,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// A seam's side as pieces of its panel's outline, in the direction of the seam.
+// One side of a seam as pieces of its panel's outline, in the direction of the seam.
 struct Stretch {
   std::vector<std::size_t> lines;  // of the domain
   bool backward = false;           // against the outline's own direction
@@ -91,7 +91,7 @@ class Sewing {
       }
   }
 
-  // Every panel's domain, and where the seams run on it.
+  // Every panel's domain, and the pieces of the seams on it.
   void prepare_all() {
     domains_.clear();
     for (const Panel& panel : result_.made) {
@@ -152,8 +152,9 @@ class Sewing {
     return (along.length() <= against.length()) != side.long_way ? along : against;
   }
 
-  // Corners and features cut the sides of a seam into pieces; each gets the cuts of the other too, until all
-  // agree. Seams follow one another round a garment, so this may take as many rounds as there are panels.
+  // Corners and features cut the sides of a seam into pieces; each side also gets the cuts of the other,
+  // until all agree. Seams may form a chain through all panels, so this may take as many rounds as there are
+  // panels.
   void align() {
     prepare_all();
     add_stitches();
@@ -249,14 +250,14 @@ class Sewing {
     }
   }
 
-  // How a side would divide a piece by itself, in the seam's direction.
+  // The division of a piece by one side alone, in the seam's direction.
   std::vector<double> wanted(const Piece& piece, std::size_t i) const {
     const SizedPanel& sized = *result_.panels[piece.side[i]->panel];
     auto shares = line_division(sized.domain, *sized.map, piece.line[i]);
     return piece.backward[i] ? turned(std::move(shares)) : shares;
   }
 
-  // The side that gets more vertices than it asked for has its sizes eased into them.
+  // On the side that gets more vertices than it needs, the sizes around the seam are reduced smoothly.
   void refine_coarser_sides() {
     std::vector<std::map<std::size_t, double>> sizes(result_.panels.size());
     each_piece([&](const Piece& piece) {
@@ -286,8 +287,8 @@ class Sewing {
   }
 
   void sew() {
-    // Where two panels both cut off a corner, sewing would join four triangles at that edge: it gets a vertex
-    // of its own in all panels but one. New triangles may do the same once more.
+    // Where two panels both have an edge across a corner of a seam, sewing would join four triangles at that
+    // edge: it is split in all panels but one. The new triangles may need the same again.
     for (int round = 0; round < 8; ++round) {
       unite();
       if (!split_shared_chords()) break;

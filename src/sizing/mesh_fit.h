@@ -1,4 +1,4 @@
-// How a given mesh compares with what its fabric needs.
+// Comparison of a given mesh with the resolution that its fabric needs.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ struct MeshFit {
   double median_edge = 0;         // m
   double finer = 0, coarser = 0;  // shares of the area whose triangles have mean edges below r/2, above 2r
   double vertices_needed = 0;     // (2/√3) ∫dA/r² + ½ ∮ds/r, over open edges
-  // Triangles coarser than that, as a box: where to look.
+  // A box around the triangles that are coarser than that.
   glm::dvec3 coarse_low{0}, coarse_high{0};
 };
 
-// positions in m, three indices a triangle; triangles without area count for nothing.
+// positions in m, three indices a triangle; triangles without area are ignored.
 MeshFit fit_of(const std::vector<glm::dvec3>& positions,
                std::span<const std::array<std::uint32_t, 3>> triangles, double resolution);
 

@@ -1,7 +1,7 @@
 // D. Zhang et al., SIGGRAPH 2025, 4.3: sizing map → Poisson-disk samples → constrained Delaunay
-// triangulation; then the samples move to the centroids of the triangles round them (L. Chen, "Mesh smoothing
-// schemes based on optimal Delaunay triangulations", 2004), and triangles that are still too flat get their
-// circumcentres (L. Chew 1993).
+// triangulation; then the samples move to the centroids of the triangles around them (L. Chen, "Mesh
+// smoothing schemes based on optimal Delaunay triangulations", 2004), and triangles that are still too flat
+// get their circumcentres (L. Chew 1993).
 
 #include "sizing/mesh_panel.h"
 
@@ -22,11 +22,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double wanted_angle = 27 * std::numbers::pi / 180;  // two degrees above what is promised
+constexpr double wanted_angle = 27 * std::numbers::pi / 180;  // two degrees above the promised angle
 constexpr double sharp_meeting = std::numbers::pi / 3;
 
-// Place along a curve that visits every cell of a 2^16 grid next to the one before (D. Hilbert 1891), so that
-// each insertion starts beside the last.
+// Position on Hilbert's curve (1891), which visits the cells of a 2^16 grid so that consecutive cells are
+// adjacent; so each insertion starts near the last one.
 std::uint32_t hilbert(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (std::uint32_t s = 1U << 15; s > 0; s >>= 1) {
@@ -53,7 +53,7 @@ class Mesher {
   Mesher(const Domain& domain, const SizeMap& map) : domain_(domain), map_(map) {
     centre_ = (domain.low + domain.high) / 2.0;
     const dvec2 extent = domain.high - domain.low;
-    // A hundredth to spare, for lines that reach over the outline before they are cut.
+    // A margin of a hundredth, for lines that extend beyond the outline before they are cut.
     scale_ = 0.98 * Triangulation::limit / (0.5 * std::max(extent.x, extent.y));
   }
 
@@ -85,8 +85,8 @@ class Mesher {
     settle_roles();
   }
 
-  // Moves free vertices to the mean of the centroids round them, weighted by what an even mesh of the wanted
-  // sizes has: area over size⁴ (Q. Du, D. Wang 2003 derive the exponent d + 2).
+  // Moves free vertices to the mean of the centroids round them, weighted so that a mesh of the wanted sizes
+  // is a fixed point: area over size⁴ (Q. Du, D. Wang 2003 derive the exponent d + 2).
   void smooth(int rounds) {
     for (int round = 0; round < rounds; ++round) {
       const auto& points = mesh_.points();
@@ -115,7 +115,7 @@ class Mesher {
     }
   }
 
-  // One vertex into each triangle that is too flat; returns how many.
+  // Inserts a vertex for each triangle that is too flat; returns their number.
   std::size_t refine() {
     settle_roles();
     std::size_t inserted = 0;
@@ -131,7 +131,7 @@ class Mesher {
                                      ab.x * glm::dot(ac, ac) - ac.x * glm::dot(ab, ab)) /
                                    turn;
       if (!std::isfinite(centre.x) || !domain_.inside(centre)) continue;
-      // Not beside another of this round's, nor where it would only make edges that are too short.
+      // Not near another one of this round, and not where its edges would be too short.
       if (std::any_of(fresh.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(fresh.size(), 64)),
                       fresh.end(),
                       [&](const dvec2& other) { return glm::distance(other, centre) < 0.5 * size; }))
@@ -204,7 +204,7 @@ class Mesher {
     }
   }
 
-  // Triangles whose angles are not for the mesher to choose.
+  // Triangles whose angles the mesher cannot choose.
   bool exempt(std::uint32_t t) const {
     const auto& vertex = mesh_.triangles()[t].vertex;
     std::array<std::uint8_t, 3> folds{};
@@ -263,14 +263,14 @@ void Mesher::describe(SizedPanel& result, const Samples& samples) {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t other = triangle.neighbour[i];
-      if (mesh_.triangles()[other].inside && other < t) continue;  // told from its other side
+      if (mesh_.triangles()[other].inside && other < t) continue;  // counted from its other side
       const std::uint32_t a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
       const bool across_fold = [&] {
         const std::uint8_t one = on_fold_[triangle.vertex[(i + 1) % 3]],
                            two = on_fold_[triangle.vertex[(i + 2) % 3]];
         return one && two && (one & two) == 0;
       }();
-      if (!across_fold) {  // half a millimetre by design
+      if (!across_fold) {  // its length is half a millimetre by design
         const dvec2 middle = (working[a] + working[b]) / 2.0, edge = mesh.vertices[b] - mesh.vertices[a];
         const double length = std::sqrt(glm::dot(edge, map_.metric(middle) * edge));
         ++edges;
@@ -296,7 +296,7 @@ void Mesher::describe(SizedPanel& result, const Samples& samples) {
     double asked = 0;
     for (std::size_t k = 0; k + 1 < samples.lines[l].size(); ++k)
       asked += glm::distance(samples.points[samples.lines[l][k]], samples.points[samples.lines[l][k + 1]]);
-    // Each vertex is rounded to the grid: half a unit a coordinate.
+    // Each vertex is rounded to the grid: by half a unit in each coordinate.
     if (asked - found[l] > 2.0 / scale_ * static_cast<double>(samples.lines[l].size()))
       quality.lost += asked - found[l];
   }

@@ -39,7 +39,7 @@ std::vector<Edge> edges_of(const io::ObjFile& obj, std::string_view name) {
       if (const auto& [a, b] = obj.lines[l]; a != b) lines.insert(std::minmax(a, b));
     for (std::size_t t = run.first_triangle; t < triangle_end; ++t) {
       const auto corner = [&](std::size_t c) { return obj.triangles[t][c % 3].position; };
-      // A polygon that names a corner twice leaves triangles without an inside, whose sides are no boundary.
+      // A polygon that names a corner twice gives triangles without area, whose sides are not boundary edges.
       if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) continue;
       for (std::size_t c = 0; c < 3; ++c) ++sides[std::minmax<std::uint32_t>(corner(c), corner(c + 1))];
     }
@@ -70,7 +70,8 @@ std::map<std::uint32_t, dvec2> flat(const io::ObjFile& obj, const std::vector<Ed
     }
   const glm::dvec3 extent = high - low;
   const double size = std::max({extent.x, extent.y, extent.z});
-  // Six digits of a file leave 1e-6 of a plane; z first, since a line along an axis lies in two.
+  // Six digits in a file give an error of 1e-6; z is tested first, since a line along an axis is in two
+  // planes.
   const int across = extent.z <= 1e-5 * size   ? 2
                      : extent.y <= 1e-5 * size ? 1
                      : extent.x <= 1e-5 * size ? 0

@@ -1,5 +1,5 @@
-// A pattern piece: what is cut out of which fabric, and what is done along its lines. Plain data, metres,
-// panel coordinates.
+// A pattern piece: its outline, its fabric, and the techniques along its lines. Plain data, metres, panel
+// coordinates.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct Feature {
   enum class Rule {
     shirring,   // 4.2.2: E_sh, ρ, n along a line
     fold,       // 4.2.3: an angle
-    stitch,     // 4.2.4: sewn to a line of another length; only the longer of the two is refined
+    stitch,     // 4.2.4: sewn to a line of another length; only the longer line is refined
     cell,       // 4.2.5: the closed seam of a down-filled cell, with its pressure
     collision,  // 4.2.6: a region with a compression ratio
   };
@@ -40,16 +40,16 @@ struct Panel {
   Polyline outline;   // closed
   std::vector<Polyline> holes;
   std::vector<Feature> features;
-  std::vector<glm::dvec2> marks;  // points of the outline, to a tenth of the resolution, that become vertices
+  std::vector<glm::dvec2> marks;  // points within a tenth of r of the outline that become vertices
 };
 
 struct SizingOptions {
   ResolutionLaw law = resolution_law();
-  double floor = 1e-3;  // m: nothing is meshed finer on purpose
+  double floor = 1e-3;  // m: the smallest resolution of any rule
   Transition::Form form = Transition::Form::unit_free;
   FoldRule fold_rule = FoldRule::complement;
   double fold_offset = 0.5e-3;  // m: the two lines beside a fold; 0: none
-  double gradation = 0.35;  // how much the size may grow a length; transitions steeper than that are eased
+  double gradation = 0.35;  // largest growth of the size per length; steeper transitions are limited to it
   std::uint32_t seed = 1;
 };
 

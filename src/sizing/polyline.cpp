@@ -232,7 +232,7 @@ Polyline spline_through(const std::vector<dvec2>& points, bool closed) {
   const auto count = static_cast<std::ptrdiff_t>(p.size());
   const auto at = [&](std::ptrdiff_t i) {
     if (closed) return p[static_cast<std::size_t>((i + count) % count)];
-    if (i < 0) return 2.0 * p[0] - p[1];  // straight on beyond the ends
+    if (i < 0) return 2.0 * p[0] - p[1];  // linear extrapolation beyond the ends
     if (i >= count) return 2.0 * p[p.size() - 1] - p[p.size() - 2];
     return p[static_cast<std::size_t>(i)];
   };
@@ -265,7 +265,7 @@ Polyline without_repeats(Polyline line) {
 double signed_area(const Polyline& closed) {
   if (closed.points.empty()) return 0;
   double sum = 0;
-  const dvec2 origin = closed.points.front();  // near the curve: areas of far away pieces would cancel badly
+  const dvec2 origin = closed.points.front();  // near the curve, against cancellation of large areas
   for (std::size_t i = 0; i < closed.points.size(); ++i)
     sum += cross(closed.start(i) - origin, closed.end(i) - origin);
   return sum / 2;
@@ -302,7 +302,7 @@ std::optional<Crossing> crossing(const dvec2& a, const dvec2& b, const dvec2& c,
 
 std::optional<dvec2> self_crossing(const Polyline& closed) {
   const std::size_t count = closed.segment_count();
-  // By the left end along x, so that only segments that share some x are compared.
+  // Sorted by the smallest x, so that only segments with a common x are compared.
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = i;
   const auto left = [&](std::size_t i) { return std::min(closed.start(i).x, closed.end(i).x); };

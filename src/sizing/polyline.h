@@ -1,4 +1,4 @@
-// Curves of a pattern piece as fine polylines, and the plane geometry they need.
+// Curves of a pattern piece as fine polylines, and plane geometry for them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,20 +19,19 @@ struct Polyline {
   double length() const;
 };
 
-// SVG path data (M L H V C S Q T A Z and their relative forms) as polylines, one a subpath; y as it stands
-// there. Arcs become pieces of 3°, Béziers 48 pieces. Throws Error(bad_input) that names the place in the
+// SVG path data (M L H V C S Q T A Z and their relative forms) as polylines, one per subpath; y is not
+// changed. Arcs become pieces of 3°, Béziers 48 pieces. Throws Error(bad_input) that names the place in the
 // text.
 std::vector<Polyline> parse_path(std::string_view text);
 
-// The path of an SVG document whose `id` it is (its first path where that is empty): its data turned upright,
-// since SVG counts y downward. Transforms and shapes other than paths are passed over. Throws
-// Error(bad_input).
+// The path of an SVG document with this `id` (the first path if it is empty), with y upward, since y of SVG
+// is downward. Transforms and shapes other than paths are ignored. Throws Error(bad_input).
 std::vector<Polyline> parse_svg(std::string_view document, std::string_view id);
 
 // A centripetal Catmull–Rom spline through the points (C. Yuksel et al. 2011), 24 pieces between two of them.
 Polyline spline_through(const std::vector<glm::dvec2>& points, bool closed);
 
-// Without points that repeat the one before.
+// Removes points that are equal to the one before.
 Polyline without_repeats(Polyline line);
 
 double signed_area(const Polyline& closed);                      // positive counterclockwise
@@ -40,7 +39,8 @@ bool contains(const Polyline& closed, const glm::dvec2& point);  // even–odd
 double distance_to_segment(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& b);
 glm::dvec2 nearest_on_segment(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& b);
 
-// Where two segments cross or touch, as shares of each; empty where they do not, or are parallel.
+// The crossing or contact of two segments, as shares of each; empty where there is none, or they are
+// parallel.
 struct Crossing {
   double first = 0, second = 0;
 };

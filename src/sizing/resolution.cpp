@@ -31,12 +31,12 @@ double ResolutionLaw::resolution(double ratio) const {
                     ratio));
   }
   // With s = r² the left side is the cubic c₁ s³ + c₂ s². Where s ≥ −2c₂/c₁ it is at least ½ c₁ s³, so this
-  // start lies right of the root; from there on the cubic is convex and rising, and Newton falls onto the
-  // root without ever passing it.
+  // start lies right of the root; there the cubic is convex and increasing, so Newton's method converges to
+  // the root from above.
   double s = std::max(std::cbrt((c2 < 0 ? 2 : 1) * ratio / c1), -2 * c2 / c1);
   for (int i = 0; i < 200; ++i) {
     const double next = s - ((c1 * s + c2) * s * s - ratio) / ((3 * c1 * s + 2 * c2) * s);
-    if (!(next < s)) break;  // rounding has the last word
+    if (!(next < s)) break;  // no further decrease: the limit of rounding
     s = next;
   }
   return std::sqrt(s);

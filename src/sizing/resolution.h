@@ -1,4 +1,4 @@
-// How fine the mesh of a fabric must be, from its stiffness alone.
+// The mesh resolution that a fabric needs, from its stiffness alone.
 //
 // D. Zhang et al., "Physics-inspired Estimation of Optimal Cloth Mesh Resolution", SIGGRAPH 2025 ("the
 // paper"), 4.1.
@@ -6,7 +6,7 @@
 
 namespace plisse::sizing {
 
-// What a system calls its softest and stiffest fabric, and how fine each is meshed. SI units.
+// The softest and the stiffest fabric of a system, and their resolutions. SI units.
 struct FabricRange {
   double bending_min = 1e-9, bending_max = 1e-3;           // B, N·m
   double modulus_min = 2e3, modulus_max = 2e6;             // E, N/m²

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double millimetre = 1e-3;
 
-// Throws unless the value lies in low … high; NaN lies nowhere.
+// Throws unless the value is in low … high; NaN is not.
 void check(const char* what, double value, bool holds, const char* allowed) {
   if (holds && std::isfinite(value)) return;
   throw Error(ExitCode::bad_input, fmt::format("{} is {:g}; allowed: {}", what, value, allowed));

@@ -1,4 +1,4 @@
-// What garment making does to the resolution at its lines, and how far that reaches.
+// The resolution at lines of garment making, and its transition to the fabric's resolution.
 //
 // D. Zhang et al., SIGGRAPH 2025 ("the paper"), 4.2, with wrinkle transitions after H. Vandeparre et al.,
 // "Wrinkling Hierarchy in Constrained Thin Sheets", PRL 106 (2011). SI units throughout; docs/sizing.md has
@@ -25,10 +25,10 @@ double fabric_resolution(const ResolutionLaw& law, const Stiffness& stiffness);
 double shirring_resolution(const ResolutionLaw& law, const Stiffness& stiffness, double added_modulus,
                            double ratio, double exponent = 1);
 
-// How r at a fold's ends and sharp bends follows from its angle (4.2.3).
+// The rule for r at a fold's ends and sharp bends, from its angle (4.2.3).
 enum class FoldRule {
   complement,  // (1 − Δθ/360) r: a fold of 0° changes nothing
-  literal,     // (Δθ/360) r, as printed; a fold of 0° asks for r = 0
+  literal,     // (Δθ/360) r, as printed; a fold of 0° would have r = 0
 };
 // degrees in [0, 360]; neighbourhood is r_ng. Never below `floor`. Throws Error(bad_input).
 double folding_resolution(double degrees, double neighbourhood, double floor,
@@ -54,7 +54,7 @@ double bending_stiffness(double modulus, double thickness, double poisson_ratio)
 double tension_transition(double wavelength, double tension, double bending);  // λ²√(T/B); T in N/m
 double compression_transition(double wavelength, double compression, double thickness);  // λ^1.5 (δ/h²)^¼
 
-// How r grows away from where it is r₀.
+// The growth of r with the distance from a source of resolution r₀.
 struct Transition {
   enum class Form {
     unit_free,  // r₀ (1 + (x/L_w)^m)
@@ -62,12 +62,12 @@ struct Transition {
   };
   Form form = Form::unit_free;
   double source = 0;    // r₀, m
-  double length = 0;    // L_w, m, shortened by pressure already; 0: no transition, r is r₀ at x = 0 only
+  double length = 0;    // L_w, m, already shortened by pressure; 0: no transition, r is r₀ only at x = 0
   double exponent = 0;  // m
 
-  // Resolution at distance x ≥ 0, metres; +∞ where it has outgrown every number.
+  // Resolution at distance x ≥ 0, metres; +∞ beyond the range of numbers.
   double at(double distance) const;
-  // The distance at which r has grown to `resolution`; 0 where it is that at the source already.
+  // The distance at which r has grown to `resolution`; 0 where r₀ is not smaller.
   double reach(double resolution) const;
   bool operator==(const Transition&) const = default;
 };
@@ -81,9 +81,8 @@ struct TransitionCause {
 };
 
 // The transition from r₀ with λ = 4 r₀: the longer of the two L_w, with its m (½ tension, ⅔ compression).
-// Pressure shortens it: L_w' = r₀ (L_w/r₀)^(2^−p), or m' = 2^p m where literal. The literal form means
-// something only for r₀ > 1 mm and L_w > 1 mm; elsewhere the unit-free one takes its place. Throws
-// Error(bad_input).
+// Pressure shortens it: L_w' = r₀ (L_w/r₀)^(2^−p), or m' = 2^p m where literal. The literal form is valid
+// only for r₀ > 1 mm and L_w > 1 mm; elsewhere the unit-free one is used. Throws Error(bad_input).
 Transition transition(double source, const Stiffness& stiffness, const TransitionCause& cause,
                       Transition::Form form = Transition::Form::unit_free);
 

@@ -1,6 +1,6 @@
 // R. Bridson, "Fast Poisson Disk Sampling in Arbitrary Dimensions", SIGGRAPH 2007 sketches, with a radius
-// that varies: accepted samples lie in grids by the size of their discs, each about twice as coarse as the
-// one before, so a look-up costs the same everywhere.
+// that varies: accepted samples are stored in several grids by the size of their discs, each about twice as
+// coarse as the one before, so that a look-up costs the same everywhere.
 
 #include "sizing/sample.h"
 
@@ -39,14 +39,14 @@ class Buckets {
     samples_.push_back({point, size});
   }
 
-  // Whether a disc there keeps its distance from all others: |pq|² ≥ κ² r_p r_q.
+  // Whether a disc there is far enough from all others: |pq|² ≥ κ² r_p r_q.
   bool fits(const dvec2& point, double size) const {
     const std::size_t own = level_of(size);
-    // Its own level first, where most conflicts are. Sizes grow slowly over a place, but features may meet:
-    // one level finer and two coarser as well.
+    // Its own level first, where most conflicts are. Sizes vary slowly in space, but features may meet, so
+    // also one level finer and two coarser.
     for (const int step : {0, 1, -1, 2}) {
       const std::size_t l = own + static_cast<std::size_t>(step);
-      if (l >= levels_.size()) continue;  // −1 below 0 wraps round to here, too
+      if (l >= levels_.size()) continue;  // also true for −1, which wraps around
       const Level& level = levels_[l];
       const double reach =
           least_distance * std::sqrt(size * std::min(2 * level.cell, greatest_in_reach * size));
@@ -101,7 +101,7 @@ class Buckets {
   std::vector<Sample> samples_;
 };
 
-// A line walked in short steps: how many edges of the wanted length reach how far.
+// A line in short steps: the number of edges of the wanted length up to each point.
 class Walk {
  public:
   Walk(const Polyline& shape, const SizeMap& map, double line_size) : shape_(shape) {
@@ -141,7 +141,7 @@ class Walk {
   std::vector<Place> place_;
 };
 
-// Shares of a line's length as the panel lies, which is stretched in working coordinates.
+// Shares of a line's length in panel coordinates; working coordinates are stretched.
 class PanelLength {
  public:
   PanelLength(const Domain& domain, const Polyline& shape) : shape_(shape) {
@@ -166,7 +166,7 @@ class PanelLength {
   std::vector<double> length_;
 };
 
-// All four nodes round it are: most places are settled by that.
+// All four nodes around it are inside: this decides most cases.
 bool amid_inside(const SizeMap& map, const dvec2& point) {
   const dvec2 at = (point - map.node(0, 0)) / map.step();
   const int x = std::clamp(static_cast<int>(at.x), 0, map.columns() - 2),
@@ -236,8 +236,8 @@ void sample_interior(const Domain& domain, const SizeMap& map, std::uint32_t see
     bool found = false;
     for (int k = 0; k < tries && !found; ++k) {
       const double angle = 2 * std::numbers::pi * uniform();
-      // Evenly over κr … √2 κr. Bridson's 2r leaves a tenth of the discs out that would still fit; this
-      // nearly jams.
+      // Uniformly in κr … √2 κr. With Bridson's 2r a tenth of the discs that would fit are missing; with this
+      // the packing is nearly full.
       const double radius = least_distance * sizes[centre] * std::sqrt(1 + uniform());
       const dvec2 point = from + radius * dvec2(std::cos(angle), std::sin(angle));
       if (!amid_inside(map, point) && !domain.inside(point)) continue;

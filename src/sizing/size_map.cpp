@@ -1,7 +1,7 @@
-// The sizing map: distances inside the panel by passing the nearest source from node to node (P.-E.
-// Danielsson's vector propagation, 1980, ordered as in E. Dijkstra's shortest paths), with the view along
-// straight lines held against the outline; gradation by J. Alauzet's and P.-O. Persson's |∇h| ≤ g ("Mesh size
-// functions for implicit geometries", 2006).
+// The sizing map: distances inside the panel by propagating the nearest source from node to node (P.-E.
+// Danielsson's vector propagation, 1980, in the order of E. Dijkstra's shortest paths), where straight lines
+// must not cross the outline; gradation by J. Alauzet's and P.-O. Persson's |∇h| ≤ g ("Mesh size functions
+// for implicit geometries", 2006).
 
 #include "sizing/size_map.h"
 
@@ -32,7 +32,7 @@ double cross(const dvec2& a, const dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// Whether the segments cross in their insides, touching not counted.
+// Whether the segments cross in their interiors; touching does not count.
 bool cuts(const dvec2& a, const dvec2& b, const dvec2& c, const dvec2& d) {
   const auto sides = [](const dvec2& p, const dvec2& q, const dvec2& r, const dvec2& s) {
     const double tiny = 1e-12 * (glm::dot(q - p, q - p) + glm::dot(s - r, s - r));
@@ -82,7 +82,7 @@ SizeMap::SizeMap(const Panel& panel, const Domain& domain, const std::vector<Sou
   weft_.assign(inside_.size(), static_cast<float>(domain.resolution.x));
   warp_.assign(inside_.size(), static_cast<float>(domain.resolution.y));
   size_.assign(inside_.size(), static_cast<float>(domain.size));
-  // Sources that grow alike share one field of distances.
+  // Sources with the same transition share one distance field.
   std::vector<std::uint8_t> done(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (done[i]) continue;
@@ -114,13 +114,13 @@ SizeMap::SizeMap(const Panel& panel, const Domain& domain, const std::vector<Sou
   extend_outside();
 }
 
-// Isotropic in working coordinates: the area that both directions ask for.
+// Isotropic in working coordinates, with the area that follows from both directions.
 double SizeMap::working_size(double weft, double warp) const {
   return std::sqrt(weft * warp * domain_.resolution.x / domain_.resolution.y);
 }
 
-// Where lines come closer to each other than the size, turn tighter, or end sooner, the mesh must be as fine
-// as that. Never finer than a quarter of the floor: what is smaller is left to be drawn by single edges.
+// Where two lines are closer than the size, a curve is tighter, or a line shorter, the mesh must be as fine
+// as that, but never finer than a quarter of the floor: smaller details are represented by single edges.
 std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
   std::vector<Cap> caps;
   const double least = options_.floor / 4;
@@ -141,7 +141,7 @@ std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
       along += glm::distance(shape.start(i), shape.end(i));
     }
   }
-  // Boxes of the size: gaps that matter join neighbouring boxes.
+  // Boxes with the side of the size: relevant gaps are between neighbouring boxes.
   const double box = domain_.size;
   const int boxes_x = std::clamp(static_cast<int>((domain_.high.x - domain_.low.x) / box) + 1, 1, 4096),
             boxes_y = std::clamp(static_cast<int>((domain_.high.y - domain_.low.y) / box) + 1, 1, 4096);
@@ -171,8 +171,8 @@ std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
     return false;
   };
 
-  // Pieces of the outline that end where one of the lines beside a fold does: those half millimetres are no
-  // gaps.
+  // Pieces of the outline that share an end with one of the lines beside a fold: these half millimetres are
+  // not gaps.
   std::vector<std::uint8_t> beside_fold(domain_.lines.size());
   for (std::size_t l = 0; l < beside_fold.size(); ++l) {
     beside_fold[l] = std::any_of(domain_.lines.begin(), domain_.lines.end(), [&](const Domain::Line& other) {
@@ -199,7 +199,7 @@ std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
     for (std::size_t i = 0; i < line.shape.segment_count(); ++i) {
       const dvec2 a = line.shape.start(i), b = line.shape.end(i);
       const double piece = glm::distance(a, b);
-      // Tight curves: eight edges round a circle, 2 sin(π/8) radii each.
+      // Tight curves: eight edges in a circle, 2 sin(π/8) radii each.
       if (line.shape.closed || i + 1 < line.shape.segment_count()) {
         const dvec2 c = line.shape.end((i + 1) % line.shape.segment_count());
         const double turn = std::abs(std::atan2(cross(b - a, c - b), glm::dot(b - a, c - b)));
@@ -225,8 +225,7 @@ std::vector<SizeMap::Cap> SizeMap::shape_caps() const {
                   (its.fold >= 0 && beside_fold[l]) || (beside_fold[l] && beside_fold[o.line]))
                 continue;
               if (o.line == l) {
-                // The same line a little further on is no gap; its other side is: much nearer than along the
-                // line.
+                // A near point of the same line is a gap only if it is much nearer than along the line.
                 double way = std::abs(o.along + glm::distance(o.a, q) - here);
                 if (line.shape.closed) way = std::min(way, length - way);
                 if (way < 3 * distance || way <= piece) continue;
@@ -252,7 +251,7 @@ void SizeMap::lay_grid(const std::vector<Source>& sources, const std::vector<Cap
     least_ = std::min(least_, working_size(source.weft.source, source.warp.source));
   for (const Cap& cap : caps) least_ = std::min(least_, cap.size);
   const dvec2 extent = domain_.high - domain_.low;
-  // Half the finest size, and at most 2²² nodes with a margin of two all round.
+  // Half of the finest size, with at most 2²² nodes and a margin of two nodes on all sides.
   step_ = std::max({least_ / 2, std::sqrt(extent.x * extent.y / static_cast<double>(most_nodes)),
                     std::max(extent.x, extent.y) / 65536});
   origin_ = domain_.low - 2 * step_;
@@ -286,11 +285,11 @@ void SizeMap::mark_inside() {
   }
 }
 
-// Distance of each node to the outline, and which pieces of it pass by.
+// Distance of each node from the outline, and the pieces of it within a cell.
 void SizeMap::measure_clearance() {
   for (const Polyline& line : domain_.boundary) {
     for (std::size_t i = 0; i < line.segment_count(); ++i) {
-      // In pieces of a few cells, so that their boxes are small.
+      // Split into pieces of a few cells, so that their boxes are small.
       const int count =
           std::max(1, static_cast<int>(glm::distance(line.start(i), line.end(i)) / (6 * step_)));
       for (int k = 0; k < count; ++k) {
@@ -343,7 +342,7 @@ void SizeMap::measure_clearance() {
   }
 }
 
-// Whether the straight way between two places of the panel stays in it; ends may lie on the outline.
+// Whether the straight line between two points of the panel is inside it; its ends may be on the outline.
 bool SizeMap::visible(dvec2 from, const dvec2& to) const {
   if (!obstacles_) return true;
   const double length = glm::distance(from, to);
@@ -363,7 +362,7 @@ bool SizeMap::visible(dvec2 from, const dvec2& to) const {
     for (const std::uint32_t w : near_walls_[i]) {
       if (cuts(from, to, walls_[w].first, walls_[w].second) &&
           distance_to_segment(from + along * way, walls_[w].first, walls_[w].second) < 2 * step_) {
-        // Crossed near here? Touching at the very ends is being on the outline.
+        // Tests for a crossing here. A contact at the ends means that they are on the outline.
         if (const auto at = crossing(from, to, walls_[w].first, walls_[w].second);
             at && at->first * length > 1e-6 * step_ && (1 - at->first) * length > 1e-6 * step_)
           return false;
@@ -378,7 +377,7 @@ void SizeMap::spread(const std::vector<const Source*>& alike) {
   const Source& one = *alike.front();
   const double own = working_size(one.weft.source, one.warp.source);
   const double reach = std::max(one.weft.reach(domain_.resolution.x), one.warp.reach(domain_.resolution.y));
-  // Where a node's distance comes from: a piece of the source or a place on the way, in panel coordinates.
+  // The origin of a node's distance: a piece of the source or a bend of the path, in panel coordinates.
   struct Root {
     dvec2 a, b;
     double offset;
@@ -421,7 +420,7 @@ void SizeMap::spread(const std::vector<const Source*>& alike) {
               if (!affected(x, y)) continue;
               const dvec2 p = panel_of(x, y), q = nearest_on_segment(p, a, b);
               if (!visible(domain_.to_working * q, node(x, y))) continue;
-              // Next to the source a transition may be steeper than a mesh can follow.
+              // Near the source a transition may be too steep for a mesh.
               float& size = size_[index(x, y)];
               size = std::min(size, static_cast<float>(own + options_.gradation *
                                                                  distance_to_segment(node(x, y), wa, wb)));
@@ -459,7 +458,7 @@ void SizeMap::spread(const std::vector<const Source*>& alike) {
       if (visible(domain_.to_working * q, node(x, y))) {
         settle(x, y, root_of[step.node], straight);
       } else if (visible(node(column, row), node(x, y))) {
-        const dvec2 here = panel_of(column, row);  // the way bends at the node before
+        const dvec2 here = panel_of(column, row);  // the path bends at the previous node
         roots.push_back({here, here, distance[step.node]});
         settle(x, y, static_cast<std::uint32_t>(roots.size() - 1),
                distance[step.node] + glm::distance(here, p));
@@ -498,8 +497,8 @@ void SizeMap::limit_gradation() {
   }
 }
 
-// Two rings of nodes round the panel take the mean of their neighbours, so that places near the outline
-// interpolate what is inside.
+// Two rings of nodes around the panel take the mean of their neighbours, so that points near the outline
+// interpolate values from inside.
 void SizeMap::extend_outside() {
   std::vector<std::uint8_t> known = inside_;
   for (int ring = 0; ring < 2; ++ring) {

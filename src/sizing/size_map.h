@@ -1,4 +1,4 @@
-// How fine the mesh of a panel is everywhere: the sizing map of D. Zhang et al., SIGGRAPH 2025, 4.3, on a
+// The wanted edge length everywhere on a panel: the sizing map of D. Zhang et al., SIGGRAPH 2025, 4.3, on a
 // regular grid in working coordinates (domain.h).
 #pragma once
 
@@ -12,8 +12,8 @@ namespace plisse::sizing {
 
 class SizeMap {
  public:
-  // r = min(r_f, sources at their distance inside the panel), direction by direction (4.2.1); then what the
-  // shape itself asks for (narrow places, tight curves, short lines), and growth no steeper than `gradation`.
+  // r = min(r_f, sources at their distance inside the panel), for each direction of the fabric (4.2.1); then
+  // limits from the shape (narrow places, tight curves, short lines), and a gradient of at most `gradation`.
   SizeMap(const Panel& panel, const Domain& domain, const std::vector<Source>& sources,
           const SizingOptions& options);
 
@@ -21,9 +21,9 @@ class SizeMap {
   double size(const glm::dvec2& working) const;
   // The same in the directions of the fabric: (weft, warp), m.
   glm::dvec2 resolution(const glm::dvec2& working) const;
-  // The tensor whose unit circle is an edge as long as wanted: |e|² = eᵀ M e = 1, panel coordinates, m⁻².
+  // The metric tensor: an edge e has the wanted length where eᵀ M e = 1; panel coordinates, m⁻².
   glm::dmat2 metric(const glm::dvec2& working) const;
-  // The finest that the features along a line of the domain ask for on it; the fabric's where there are none.
+  // The finest size that features along a line of the domain need on it; the fabric's where there are none.
   double line_size(std::size_t line) const { return line_sizes_[line]; }
 
   int columns() const { return columns_; }
@@ -32,7 +32,7 @@ class SizeMap {
   glm::dvec2 node(int column, int row) const { return origin_ + step_ * glm::dvec2(column, row); }
   bool inside(int column, int row) const { return inside_[index(column, row)] != 0; }
   float node_size(int column, int row) const { return size_[index(column, row)]; }
-  double least() const { return least_; }  // of all sizes asked for, working coordinates
+  double least() const { return least_; }  // of all wanted sizes, working coordinates
 
  private:
   struct Cap {
@@ -60,7 +60,7 @@ class SizeMap {
   glm::dvec2 origin_{0};
   double step_ = 0, least_ = 0;
   int columns_ = 0, rows_ = 0;
-  bool obstacles_ = false;  // distances may have to go round something
+  bool obstacles_ = false;  // distances may have to go around holes or notches
   std::vector<std::uint8_t> inside_;
   std::vector<float> weft_, warp_, size_, clearance_;
   std::vector<std::vector<std::uint32_t>> near_walls_;  // by node: boundary segments that pass within a cell

@@ -1,5 +1,5 @@
-// D. Zhang et al., SIGGRAPH 2025, 4.2.2 to 4.2.6: from what is done to a line to its resolution and
-// transition.
+// D. Zhang et al., SIGGRAPH 2025, 4.2.2 to 4.2.6: from the garment-making technique at a line to its
+// resolution and transition.
 
 #include "sizing/source.h"
 
@@ -33,8 +33,8 @@ Source source_of(int index, const Feature& feature, const Panel& panel, const Si
   return {index, in(panel.fabric.weft), in(panel.fabric.warp), {feature.line}, false, {}};
 }
 
-// A bend that a mesh of this resolution sees as sharp: a corner, or a radius below twice the resolution. One
-// a run.
+// A bend that is sharp for a mesh of this resolution: a corner, or a radius below twice the resolution. One
+// per consecutive run.
 std::vector<std::size_t> sharp_bends(const Polyline& line, double resolution) {
   std::vector<std::size_t> bends;
   double sharpest = 0;
@@ -59,8 +59,9 @@ std::vector<std::size_t> sharp_bends(const Polyline& line, double resolution) {
   return bends;
 }
 
-// At the ends the transition runs on along the fold, at sharp bends toward their inner side, where cloth is
-// squeezed. A fold that ends on the outline has no cloth before it: there it runs back along the fold.
+// At the ends the transition extends in the direction of the fold, at sharp bends toward their inner side,
+// where cloth is compressed. A fold that ends on the outline has no cloth ahead of it: there it extends
+// backward along the fold.
 void add_fold(int index, const Feature& feature, const Panel& panel, const SizingOptions& options,
               std::vector<Source>& sources) {
   const dvec2 base = fabric_resolution(panel, options);
@@ -70,7 +71,7 @@ void add_fold(int index, const Feature& feature, const Panel& panel, const Sizin
     forward = glm::normalize(forward);
     if (!in_panel(panel, point + forward * options.floor)) forward = -forward;
     TransitionCause cause = feature.cause;
-    cause.compression = std::min(1 - share, 0.99);  // a fold shut to nothing still has some cloth left in it
+    cause.compression = std::min(1 - share, 0.99);  // even a closed fold is not compressed to nothing
     const auto in = [&](const Stiffness& stiffness, double resolution) {
       return transition(folding_resolution(feature.angle, resolution, options.floor, options.fold_rule),
                         stiffness, cause, options.form);

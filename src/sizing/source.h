@@ -1,4 +1,4 @@
-// Where a panel's mesh must be finer than its fabric asks for, and how far that reaches.
+// Sources: lines where a panel's mesh must be finer than its fabric needs, with their transitions.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,7 +15,7 @@ struct Source {
   int feature = 0;  // index into Panel::features
   Transition weft, warp;
   std::vector<Polyline> lines;  // panel coordinates, m
-  bool filled = false;          // closed lines: their inside is at distance 0 as well
+  bool filled = false;          // closed lines: their interior is at distance 0 as well
   std::optional<glm::dvec2>
       forward;  // a unit vector: only points on this side of the (one) point are affected
 };
@@ -23,7 +23,7 @@ struct Source {
 // r of the fabric alone, (weft, warp), m.
 glm::dvec2 fabric_resolution(const Panel& panel, const SizingOptions& options);
 
-// Features that ask for nothing finer (a stitch on the shorter side, a flat fold) have none. Throws
+// Features that need no finer mesh (a stitch on the shorter side, a flat fold) have none. Throws
 // Error(bad_input) naming feature and value.
 std::vector<Source> sources_of(const Panel& panel, const SizingOptions& options);
 
