@@ -1,6 +1,6 @@
-// Plain values to bytes and back, and into a hash: one function `members(archive, value)` a struct says what
-// it consists of, for all three. Structs are taken apart by structured bindings, so that one with a new
-// member does not compile until that is in too.
+// Plain values to bytes and back, and into a hash: one function `members(archive, value)` per struct lists
+// its members for all three. It uses structured bindings, so that a struct with a new member does not compile
+// until the member is listed.
 #pragma once
 
 #include <Eigen/Core>
@@ -72,7 +72,7 @@ class Writer {
   std::vector<std::uint8_t> bytes_;
 };
 
-// Takes what a Writer appended, in the same order. ok() is false once something was not there.
+// Reads what a Writer appended, in the same order. ok() is false once data was missing.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
@@ -93,7 +93,7 @@ class Reader {
     if (size > 0) std::memcpy(data, left_.data(), size);
     left_ = left_.subspan(size);
   }
-  // Of items that take so many bytes each; 0 where they cannot be there.
+  // The number of items of this size in bytes; 0 where there are not enough bytes for them.
   std::size_t take_count(std::size_t bytes_each) {
     std::uint64_t count = 0;
     take_raw(&count, sizeof count);
@@ -151,7 +151,7 @@ class Reader {
   bool ok_ = true;
 };
 
-// The bytes a Writer would make, into a hash.
+// Adds the bytes that a Writer would append to a hash.
 class Hasher {
  public:
   explicit Hasher(Hash& hash) : hash_(hash) {}

@@ -9,7 +9,7 @@
 namespace plisse::cloth {
 namespace {
 
-constexpr double worth_keeping_s = 0.002;  // looking an answer up takes about as long
+constexpr double worth_keeping_s = 0.002;  // looking a solution up takes about as long
 
 template <typename T, typename Of>
 concept Is = std::is_same_v<std::remove_const_t<T>, Of>;
@@ -41,7 +41,7 @@ void members(auto& a, Is<shell::Conditions::Mirror> auto& value) {
   auto& [axis, at] = value;
   a(axis, at);
 }
-// What stands where nothing is held is not read.
+// Values where nothing is held are not used.
 void members(auto& a, Is<shell::Conditions> auto& value) {
   auto& [held, at, mirrors] = value;
   a(held, shell::Positions(held.select(at, 0.0)), mirrors);

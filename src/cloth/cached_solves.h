@@ -1,4 +1,5 @@
-// Base surfaces and wrinkle fields that are solved once: find_equilibrium and solve_field, behind a cache.
+// find_equilibrium and solve_field with a cache, so that base surfaces and wrinkle fields are solved only
+// once.
 #pragma once
 
 #include "cloth/solved_cache.h"
@@ -7,14 +8,14 @@
 
 namespace plisse::cloth {
 
-// What a run took from the cache.
+// The results that a run took from the cache.
 struct Reuse {
   int answers = 0;
-  double saved_s = 0;  // what they took to find, less what it took to look them up
+  double saved_s = 0;  // the time of their solves, less the time to look them up
 };
 
-// As shell::find_equilibrium, which runs where the answer is not there yet. What did not converge, or took
-// less than two thousandths of a second, is not kept.
+// As shell::find_equilibrium, which runs if the result is not in the cache. Results that did not converge, or
+// took less than two milliseconds, are not stored.
 shell::Equilibrium cached_equilibrium(const SolvedCache& cache, Reuse& reuse, const shell::Shell& shell,
                                       const shell::Conditions& conditions, const shell::Loads& loads,
                                       const shell::Positions& start,

@@ -44,7 +44,7 @@ std::filesystem::path write_cache(const std::filesystem::path& output, const std
   return path;
 }
 
-// Cloth goes along with obstacles that move, in ways so short that none is caught up.
+// Moves free cloth with moving obstacles, in steps so small that an obstacle never overtakes a vertex.
 Positions led(const DrapeScene& scene, const shell::Conditions& conditions, double from, double to,
               Positions positions) {
   auto before = scene.obstacles(from);
@@ -64,7 +64,7 @@ Positions led(const DrapeScene& scene, const shell::Conditions& conditions, doub
   return positions;
 }
 
-// Where vertices stick to obstacles that have moved.
+// The anchors of friction, moved with the obstacles.
 std::vector<Positions> carried_along(const std::vector<shell::Obstacle>& before,
                                      const std::vector<shell::Obstacle>& after,
                                      std::vector<Positions> anchors) {
@@ -118,10 +118,10 @@ shell::Shell shell_of(const DrapeScene& scene) {
   double angle = 0;
   for (std::size_t f = 0; f < forms.size(); ++f)
     angle = std::max(angle, forms[f].norm() * std::sqrt(shell.rest[f].area));
-  // Less than 1e-3 is what six digits of a file leave of a plane.
+  // Six digits in a file give less than 1e-3 for a plane.
   if (angle < 1e-3) return shell;
   shell.rest_forms = std::move(forms);
-  shell.bending = shell::Bending::midedge;  // the quadratic model knows flat rest shapes only
+  shell.bending = shell::Bending::midedge;  // the quadratic model is for flat rest shapes only
   return shell;
 }
 
@@ -184,8 +184,7 @@ shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shel
   const double load = load_of_frame(scene, n);
   const shell::Conditions conditions = scene.conditions(load);
   shell::Loads& loads = state.loads;
-  // Carrying knows nothing of obstacles and could take cloth through them: beside them only what is held
-  // moves.
+  // `carried` ignores obstacles and could move cloth through them: with obstacles only held vertices move.
   Positions start =
       loads.obstacles.empty() ? shell::carried(shell, conditions, state.positions) : state.positions;
   if (scene.obstacles) {
@@ -261,7 +260,7 @@ DrapeReport drape(const DrapeRequest& request) {
                                         return !interrupted();
                                       });
     } catch (const Error& error) {
-      if (report.frames.empty()) throw;  // nothing was made yet
+      if (report.frames.empty()) throw;  // no frame is finished yet
       report.failure = fmt::format("frame {}: {}", n, error.what());
       report.failure_code = error.code;
       report.converged = false;

@@ -1,4 +1,4 @@
-// plisse drape, the story: a scene → per frame what is held → equilibrium → base surface.
+// plisse drape: a scene → for each frame its boundary conditions → equilibrium → base surface.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@
 
 namespace plisse::cloth {
 
-// How vertices lie beside obstacles, metres.
+// Position of the vertices relative to obstacles, metres.
 struct DrapeContact {
   int inside = 0;      // how many are in one
   double deepest = 0;  // how deep; 0: none is
-  double nearest = 0;  // how far off the one is that comes nearest from outside
+  double nearest = 0;  // distance of the nearest vertex outside
 };
 
 struct DrapeFrame {
@@ -44,27 +44,26 @@ struct DrapeRequest {
 
 struct DrapeReport {
   std::size_t vertices = 0, faces = 0;
-  std::vector<DrapeFrame> frames;  // those that were asked for
+  std::vector<DrapeFrame> frames;  // those that were requested
   std::vector<std::filesystem::path> outputs;
-  bool converged = true;  // all that were asked for
+  bool converged = true;  // all requested ones did
   bool interrupted = false;
   std::string failure;  // why a frame could not begin, with its number; empty: all could
   ExitCode failure_code = ExitCode::fine;
   double wall_s = 0, peak_rss_MiB = 0;
-  int from_cache = 0;  // equilibria that the cache had
-  double saved_s = 0;  // what they took when they were found, less looking them up
+  int from_cache = 0;  // equilibria that were in the cache
+  double saved_s = 0;  // time of their solves, less that of looking them up
 };
 
-// Solves the frames in order from the first, each from the one before, carried to where it is held, or along
-// with obstacles that move; what is
-// not asked for is solved on the way: the frames are the load's steps. Several frames into one file: the
-// first as base.ply, all of them as base.pc2 beside it. A solver that stops short of its rule has its last
-// state written, marked in the file and the report. An interrupt ends the run after the step, with the last
-// good state written; so does a frame that cannot begin
-// (`failure`), once there is another to write. Throws Error.
+// Solves the frames in order from the first. Each starts from the one before, moved to its boundary
+// conditions or along with moving obstacles. Frames that are not requested are solved too, since the frames
+// are the steps of the load. Several frames into one file: the first as base.ply, all of them as base.pc2
+// beside it. If the solver stops before it has converged, its last state is written and marked in file and
+// report. An interrupt ends the run after the current step, and the last good state is written; so does a
+// frame that cannot begin (`failure`), if there is an earlier one. Throws Error.
 DrapeReport drape(const DrapeRequest& request);
 
-// The same step by step: what stands between one frame and the next, and the frame that comes after it. `n`
+// The same in single steps: the start of the next frame, and its solution. `n`
 // counts from 1, in order. Throws Error.
 struct DrapeState {
   explicit DrapeState(const DrapeScene& scene) : positions(scene.start), loads(scene.loads) {}
@@ -73,9 +72,9 @@ struct DrapeState {
   double load = 0;
 };
 double load_of_frame(const DrapeScene& scene, int n);
-// Free coordinates moved at random by up to the scene's `perturb`, the same way every time: a flat St.
-// Venant-Kirchhoff sheet that is compressed is in equilibrium, but stays flat only if nothing disturbs it.
-// What obstacles push at stays where it is.
+// Free coordinates moved at random by up to the scene's `perturb`, always with the same numbers: a flat
+// compressed St. Venant-Kirchhoff sheet is in an unstable equilibrium, and would stay flat without a
+// perturbation. Vertices in contact with obstacles are not moved.
 shell::Positions perturbed(const DrapeScene& scene, const shell::Loads& loads,
                            const shell::Conditions& conditions, shell::Positions positions);
 shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shell, int n, DrapeState& state,

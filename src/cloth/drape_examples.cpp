@@ -99,8 +99,8 @@ DrapeScene stretched_sheet(const Wanted& wanted) {
   return scene;
 }
 
-// The same, of which only the quarter x ≥ 0, y ≥ 0 about its middle is solved: waves are mirror images of
-// themselves in both planes.
+// The same, of which only the quarter x ≥ 0, y ≥ 0 about its middle is solved: waves are mirror-symmetric in
+// both planes.
 DrapeScene stretched_quarter(const Wanted& wanted) {
   const double width = 0.125, height = 0.05, share = 0.1, tiny = 1e-5 * width;
   DrapeScene scene = panel_scene(rectangle(width, height, wanted));
@@ -204,8 +204,8 @@ DrapeScene regular_cylinder(const Wanted& wanted, Diagonals diagonals) {
 // --- two alike panels, sewn along their outlines, blown up
 // ----------------------------------------------------
 
-// An edge that crosses the panel from one seam vertex to another would be sewn to its twin: it gets a vertex
-// in its middle. True where there was one; neighbours that share a triangle need another turn.
+// An edge across the panel between two seam vertices would be sewn to the same edge of the other panel: it is
+// split in its middle. Returns whether there was one; edges of the same triangle need another call.
 bool split_some_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
   std::vector<bool> on_seam(static_cast<std::size_t>(mesh.points.cols()), false);
   for (const std::uint32_t v : seam) on_seam[v] = true;
@@ -231,7 +231,8 @@ bool split_some_chords(FlatMesh& mesh, const std::vector<std::uint32_t>& seam) {
 }
 
 // The panels lie in the plane y = 0 and bulge apart; seams stay in that plane, of which the whole is a mirror
-// image. What is left of rigid motions is taken by three more coordinates that a symmetric shape needs not.
+// image. Three more held coordinates remove the remaining rigid motions, without constraining the symmetric
+// shape.
 DrapeScene pillow(FlatMesh mesh, const std::vector<std::uint32_t>& seam, double bulge) {
   while (split_some_chords(mesh, seam)) {
   }
@@ -253,8 +254,8 @@ DrapeScene pillow(FlatMesh mesh, const std::vector<std::uint32_t>& seam, double 
   scene.start.resize(3, sewn.count);
   for (std::uint32_t v = 0; v < 2 * count; ++v) {
     const Vector3d p = mesh.points.col(v % count);
-    // Inward from the outline, so that the start is no plane; both panels seen from outside run
-    // counterclockwise.
+    // Raised toward the middle, so that the start is not flat; faces of both panels are counterclockwise from
+    // outside.
     double distance = std::numeric_limits<double>::max();
     for (const std::uint32_t s : seam) distance = std::min(distance, (mesh.points.col(s) - p).norm());
     const double rise = sewn_here[v % count] ? 0 : bulge * std::sqrt(distance);
@@ -310,7 +311,7 @@ DrapeScene torus(const Wanted& wanted) {
   DrapeScene scene = pillow(mesh, rims, 0.1);
   scene.material = {1e7, 0.44, 1e-4, 0};
   scene.loads.pressure = 100;
-  // Without any stiffness against compression it finds less energy in kinks, in which all of it is
+  // Without stiffness against compression the energy is lower with kinks, in which all compression is
   // concentrated.
   scene.residual = 1e-3;
   return scene;
@@ -379,7 +380,7 @@ DrapeScene curtain(const Wanted& wanted) {
   std::vector<std::uint32_t> hooked;
   for (int k = 0; k < hooks; ++k)
     hooked.push_back(nearest(scene.rest, Vector3d(width * k / (hooks - 1), height, 0)));
-  // A slight wave, every other field forward: flat is an equilibrium too, but no curtain.
+  // A slight wave, with alternating signs between the hooks: the flat cloth is in equilibrium too.
   for (Eigen::Index v = 0; v < scene.start.cols(); ++v)
     scene.start(2, v) = 0.05 * std::sin(pi * (hooks - 1) * scene.start(0, v) / width);
   const Positions rest = scene.rest;
@@ -397,8 +398,8 @@ DrapeScene curtain(const Wanted& wanted) {
 DrapeScene cantilever(const Wanted& wanted) {
   const double length = 1;
   const int columns = std::max(8, wanted.vertices / 3 - 1);
-  // What bends at a hinge stands for half an edge on each side of it: the second column of vertices, up to
-  // which all is held, lies half an edge before the free length begins.
+  // A hinge represents the bending of half an edge on each side of it: so the last held column of vertices is
+  // half an edge before the beginning of the free length.
   const double edge = length / (columns - 0.5);
   DrapeScene scene = panel_scene(grid_mesh(columns * edge, 0.1, columns, 2, Diagonals::alternating));
   scene.material = {1e7, 0, 1e-3, 1000};
@@ -423,7 +424,7 @@ DrapeScene cantilever(const Wanted& wanted) {
 }
 
 // A ring pulled inward at its inner edge three times as hard, a length, as outward at its outer one, ten
-// times as far out: radial lines slacken sideways out to 1.535 inner radii.
+// times as far out: the ring is wrinkled out to 1.535 inner radii.
 DrapeScene annulus(const Wanted& wanted) {
   const double inner = 0.1, outer = 1, ratio = 3;
   const double growth = std::log(outer / inner);
@@ -459,8 +460,7 @@ DrapeScene annulus(const Wanted& wanted) {
       scene.loads.forces.col(v) = (j == 0 ? -ratio : 1.0) * pull * share * mesh.points.col(v).normalized();
     }
   }
-  // An unbalanced remainder (10 : 3 of the edges' lengths is not 1) is none: both edges' forces sum to
-  // nothing.
+  // The different lengths of the edges leave no net force: the forces of each edge sum to zero.
   const Positions rest = scene.rest;
   const std::uint32_t east = nearest(rest, {inner, 0, 0}), west = nearest(rest, {-inner, 0, 0}),
                       north = nearest(rest, {0, inner, 0});

@@ -19,7 +19,7 @@ struct DrapeExample {
 const std::vector<DrapeExample>& drape_examples();
 
 // About `vertices` vertices (0: the example's own number); the same seed gives the same mesh. Throws
-// Error(bad_input) for a name that is none, with the nearest that is one.
+// Error(bad_input) for an unknown name, with the nearest known one.
 DrapeScene drape_example(const std::string& name, int vertices = 0, std::uint32_t seed = 1);
 
 }  // namespace plisse::cloth

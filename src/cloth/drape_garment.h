@@ -20,14 +20,15 @@ struct SewnGarment {
   shell::Positions sewn(const shell::Positions& rest_placed) const;
 };
 
-// As finely as its fabrics ask for. Throws what sizing::mesh_garment does.
+// As finely as its fabrics need. Throws as sizing::mesh_garment.
 SewnGarment sew_garment(const sizing::Garment& garment, const sizing::SizingOptions& options);
 
 // The same with about this many vertices. Throws Error(bad_input) where panels have holes or features.
 SewnGarment sew_garment(const sizing::Garment& garment, int vertices, std::uint32_t seed);
 
-// Where panels start: each bent round an upright cylinder of this radius, its x along the circumference and
-// its x = 0 in front (+z) of the axis, or left flat (0); then turned and moved as it is placed.
+// Initial positions of panels: each is bent around a vertical cylinder of this radius, with x along the
+// circumference and x = 0 in front (+z) of the axis, or left flat (0); then rotated and moved to its
+// placement.
 shell::Positions placed(const SewnGarment& sewn, const sizing::Garment& garment, double wrap);
 
 }  // namespace plisse::cloth

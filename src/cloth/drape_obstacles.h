@@ -1,4 +1,4 @@
-// The obstacles of a drape scene in time: solids that are turned and moved, and models that are animated.
+// The obstacles of a drape scene over time: solids that rotate and move, and animated models.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,12 +8,13 @@
 
 namespace plisse::cloth {
 
-// Where a motion has led to at load t.
+// The result of a motion at load t.
 Eigen::Isometry3d motion_at(const config::DrapeSettings::Motion& motion, double t);
 
 // Puts a scene file's obstacles into the scene, whose frames are known. A model is posed by its clip at 24
-// frames a second, frame n of the scene by frame n of the clip (the last one stays), between them by straight
-// lines. Throws Error(bad_input): a model that cannot be read, has no such clip or is not closed.
+// frames a second, frame n of the scene by frame n of the clip (after its end by the last one), with linear
+// interpolation in between. Throws Error(bad_input): a model that cannot be read, has no such clip or is not
+// closed.
 void place_obstacles(const config::DrapeSettings& settings, DrapeScene& scene);
 
 }  // namespace plisse::cloth

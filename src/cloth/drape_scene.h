@@ -22,9 +22,9 @@ struct DrapeScene {
   shell::Positions rest;                // may be cut apart where the base is sewn
   std::vector<shell::Face> rest_faces;  // into `rest`; face i, corner j belongs to base face i, corner j
   std::vector<shell::Face> faces;       // of the base surface
-  bool rest_flat = false;               // bending is measured from flat, whatever `rest` is
+  bool rest_flat = false;               // bending is measured from the flat shape, also if `rest` is curved
   shell::Positions start;               // of the base surface
-  bool solved = false;                  // `start` is the answer (the base_mesh of a set-up for wrinkles)
+  bool solved = false;                  // `start` is the solution (the base_mesh of a set-up for wrinkles)
   shell::Material material;
   shell::Stretching stretching = shell::Stretching::tension_field;
   shell::Bending bending = shell::Bending::quadratic;
@@ -32,12 +32,12 @@ struct DrapeScene {
   double perturb = 0;  // m: free coordinates of the start are moved at random by up to this much
   shell::Loads loads;
   shell::Positions growing_forces;  // N, 3×V or empty: t times these are added to the loads'
-  // What is held, at load t in 0 … 1. The same coordinates are held for every t.
+  // The held coordinates at load t in 0 … 1. The same ones are held for every t.
   std::function<shell::Conditions(double t)> conditions;
   // Obstacles that move, at load t; the same number for every t. Empty: those of `loads` stay.
   std::function<std::vector<shell::Obstacle>(double t)> obstacles;
   int frames = 1;  // of a scene that moves: frame n of N stands at t = (n − 1)/(N − 1)
-  // Numbers that say how it came out, by name; none where empty.
+  // Measures of the result, by name; none where empty.
   std::function<std::map<std::string, double>(const shell::Positions&)> measures;
   shell::NewtonSettings newton;
 };

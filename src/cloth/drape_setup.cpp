@@ -87,11 +87,11 @@ std::vector<Held> find_held(const config::DrapeSettings& settings, const Positio
   return all;
 }
 
-// Says once what a fabric does not tell and was taken instead.
+// Reports once the values that a fabric lacks and that were assumed.
 shell::Material told_material(const std::string& who, const sizing::Fabric& fabric,
                               std::optional<double> poisson, std::optional<double> density,
                               std::optional<double> weight) {
-  // A weight of 0 g/m² stands for one that follows from a density.
+  // A weight of 0 g/m² means that it follows from a density.
   FabricMaterial made = material_of(fabric, poisson, density ? std::optional(0.0) : weight);
   if (density) made.material.density = *density;
   if (!made.assumed.empty())
@@ -205,14 +205,14 @@ DrapeScene scene_of(const config::DrapeSettings& settings) {
   const Positions start = scene.start;
   scene.conditions = [start, all = find_held(settings, start)](double t) {
     Conditions conditions(static_cast<std::size_t>(start.cols()));
-    // Mirrors last: what lies in their plane lies there to the last bit, whatever else holds it.
+    // Mirrors last: vertices in their plane must be exactly in it, whatever else holds them.
     for (const bool mirrors : {false, true})
       for (const Held& held : all) {
         if (held.hold.mirror != mirrors) continue;
         const Eigen::Isometry3d motion = motion_at(held.hold.motion, t);
         for (const std::uint32_t v : held.vertices) {
           Vector3d at = motion * start.col(v);
-          if (held.hold.mirror) at = motion * start.col(held.vertices.front());  // one plane to the last bit
+          if (held.hold.mirror) at = motion * start.col(held.vertices.front());  // exactly one plane
           for (int axis = 0; axis < 3; ++axis) {
             if (!held.hold.axes[static_cast<std::size_t>(axis)]) continue;
             conditions.hold(v, axis, at[axis]);
@@ -387,8 +387,8 @@ DrapeScene scene_of(Setup& setup) {
   const FlatMesh mesh = read_mesh(setup.file().parent_path() / rest);
   scene.rest = scene.start = mesh.points;
   scene.rest_faces = scene.faces = mesh.faces;
-  // Sewn: the rest mesh is cut apart, the surface they ship says what belongs together. Only its faces are
-  // taken.
+  // Sewn: the rest mesh is cut apart, and the faces of the authors' surface define which vertices are one.
+  // Only its faces are used.
   const std::string current = setup.text("cur_mesh"), solved = setup.text("base_mesh");
   std::error_code error;
   if (!solved.empty()) {

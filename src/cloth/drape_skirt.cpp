@@ -196,8 +196,8 @@ DrapeScene skirt_scene(int vertices, std::uint32_t seed) {
   scene.loads.gravity << 0, -9.81, 0;
   scene.loads.gap = gap;
 
-  // Round the body on a cone that begins at the waist, as wide as the body asks for: the panels' shares of
-  // their width become shares of the way round.
+  // Round the body on a cone that begins at the waist, as wide as the body needs: the panels' shares of their
+  // width become shares of the circumference.
   Positions placed(3, sewn.rest.points.cols());
   std::vector<std::uint32_t> held;
   for (Eigen::Index v = 0; v < placed.cols(); ++v) {

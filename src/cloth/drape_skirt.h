@@ -7,8 +7,8 @@
 
 namespace plisse::cloth {
 
-// A closed torso from the thighs to the chest, 27,000 triangles, metres, y up, facing +z. Its sway: `t` in 0
-// … 1 is one turn to either side and back, the hips with it, the chest hardly.
+// A closed torso from the thighs to the chest, 27,000 triangles, metres, y up, facing +z. Its motion: for `t`
+// in 0 … 1 the hips turn to one side, to the other and back; the chest hardly moves.
 shell::Positions torso_points(double t);
 std::vector<shell::Face> torso_faces();
 

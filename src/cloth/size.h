@@ -1,4 +1,4 @@
-// plisse size, the story: panel file → per panel domain, map, samples, mesh → files and figures.
+// plisse size: panel file → for each panel domain, map, samples, mesh → files and figures.
 #pragma once
 
 #include <filesystem>

@@ -57,7 +57,7 @@ class Canvas {
       pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + alpha * (colour[c] - pixel[c])));
   }
 
-  // Coverage by distance: a pixel half a pixel off the edge of the line has half of it.
+  // Antialiasing by distance: coverage falls from 1 to 0 over one pixel at the edge of the line.
   void line(const dvec2& a, const dvec2& b, const Colour& colour, double width, double opacity) {
     const dvec2 low = glm::min(a, b) - width - 1.0, high = glm::max(a, b) + width + 1.0;
     const dvec2 clamped_low = glm::max(low, dvec2(0)),
@@ -258,7 +258,7 @@ io::Image draw_size_mesh(const sizing::Panel& panel, const sizing::SizedPanel& s
   Canvas canvas(view.width(), view.height());
   constexpr double pale = 0.45;  // under the lines
   fill(canvas, view, panel, sized, scale, pale);
-  // Fine lines where triangles are small, so that dense places do not go black.
+  // Thin lines where triangles are small, so that dense regions do not become black.
   for (const auto& triangle : sized.mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = triangle[i], b = triangle[(i + 1) % 3];

@@ -20,15 +20,15 @@ constexpr const char* extension = ".solved";
 
 struct Header {
   char magic[8];
-  char key[32];    // of the question
-  char check[32];  // of the answer
+  char key[32];    // the hash
+  char check[32];  // checksum of the solution
 };
 
 std::string check_of(std::span<const std::uint8_t> bytes) {
   return Hash().add_bytes(bytes).hex();
 }
 
-// Of the file that runs: whatever is changed in a solver changes it.
+// Hash of the program file, which changes with every change of a solver.
 const std::string& program_hash() {
   static const std::string hash = [] {
     try {
@@ -123,7 +123,7 @@ void SolvedCache::make_room() const {
   std::error_code error;
   for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() != extension) continue;
-    std::error_code gone;  // another process makes room, too
+    std::error_code gone;  // another process may delete it, too
     const std::uintmax_t bytes = it->file_size(gone);
     const auto used = gone ? fs::file_time_type() : it->last_write_time(gone);
     if (gone) continue;

@@ -1,7 +1,8 @@
-// Answers that were found before, by a hash of all that they depend on: values in a file each, in a folder of
-// the user's. The program itself is part of the hash, so a new version finds nothing of an old one's. The
-// processor is not: dense blocks have the same bytes with AVX2 and without (shell/dense.h), and what else
-// depends on it, the last bits of the C library's functions, makes another answer that balances as well.
+// Solutions of earlier runs, by a hash of everything that they depend on: one file each, in a folder of the
+// user. The program itself is part of the hash, so a new version does not use solutions of an old one. The
+// processor is not: dense blocks have the same bytes with and without AVX2 (shell/dense.h), and the last bits
+// of the C library's functions, which may depend on it, only give another solution that has converged as
+// well.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace plisse::cloth {
 
 class SolvedCache {
  public:
-  // Empty: off; nothing is found, nothing kept.
+  // Empty: the cache is off.
   explicit SolvedCache(std::filesystem::path folder = {},
                        std::uintmax_t most_bytes = std::uintmax_t{1} << 30);
 
@@ -26,12 +27,13 @@ class SolvedCache {
   static std::filesystem::path user_folder();
 
   bool on() const { return !folder_.empty(); }
-  // A hash to add what an answer depends on to; begins with the program and with what kind of answer it is.
+  // The begin of a hash, with the program and the kind of solution; everything else that the solution depends
+  // on is added by the caller.
   static Hash question(const std::string& kind);
-  // Nothing where there is none, or where the file is not whole.
+  // Nothing where there is none, or where the file is damaged.
   std::optional<std::vector<std::uint8_t>> find(const Hash& question) const;
-  // Written whole or not at all; what was used longest ago makes room. That it cannot be written is no
-  // failure.
+  // Written completely or not at all; files not used for the longest time are deleted to make room. A failure
+  // to write is ignored.
   void keep(const Hash& question, std::span<const std::uint8_t> answer) const;
 
  private:

@@ -1,4 +1,4 @@
-// plisse wrinkle, the story: a base surface → its forms → amplitude and phase → field files.
+// plisse wrinkle: a base surface → its forms → amplitude and phase → field files.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace plisse::cloth {
 
-// What is solved on, metres.
+// The surface of the solve, metres.
 struct WrinkleScene {
   std::string name;
   wrinkle::BaseSurface surface;
@@ -39,7 +39,7 @@ struct WrinkleRequest {
       output;  // field.ply, or NAME_amplitude_REST.txt for the authors' three text files; empty: none
   std::filesystem::path mesh;  // the waves as geometry: .ply, .obj or .glb; empty: none
   std::optional<int> levels;   // how often edges are halved for it; see wrinkle_mesh
-  bool mesh_v1 = false;        // its waves lean with the base surface's curvature
+  bool mesh_v1 = false;        // its waves have the tangential displacement v₁
   std::filesystem::path
       cache;  // folder of fields that were found before (pipeline/solved_cache.h); empty: none
 };
@@ -58,7 +58,7 @@ struct WrinkleReport {
   int levels = 0;  // of the mesh
   double upsample_s = 0, wall_s = 0;
   bool from_cache = false;
-  double saved_s = 0;  // what the field took when it was found, less looking it up
+  double saved_s = 0;  // time of the field's solve, less that of looking it up
 };
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request);
@@ -74,7 +74,7 @@ struct WrinkleEvaluation {
   double curl_max = 0;
 };
 
-// The energy of a field that somebody else solved: text files, one amplitude a vertex and one dφ an edge.
+// The energy of a field from another program: text files with one amplitude per vertex and one dφ per edge.
 WrinkleEvaluation evaluate_field(const WrinkleRequest& request, const std::filesystem::path& amplitude,
                                  const std::filesystem::path& one_form);
 

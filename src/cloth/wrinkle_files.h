@@ -6,10 +6,10 @@
 
 namespace plisse::cloth {
 
-// Throws Error where what is asked for has no ending that is written, or cannot be written there.
+// Throws Error where an output has an ending that is not supported, or cannot be written.
 void check_outputs(const WrinkleRequest& request);
 
-// stopped: why a solver stopped short of its rule, noted in a PLY; empty: it did not.
+// stopped: why a solver stopped before it had converged, as a comment in a PLY; empty: it converged.
 void write_field(const std::filesystem::path& output, const wrinkle::BaseSurface& surface,
                  const wrinkle::CoarseField& field, const Eigen::VectorXd& one_form,
                  const std::string& stopped);

@@ -15,7 +15,7 @@ struct WrinkleMesh {
 };
 
 // Edges are halved `levels` times, or until a wave has eight segments on the longest edge that has waves, but
-// for at most a million triangles (a warning says so). Texture coordinates are those of the unrolled rest
+// with at most a million triangles (a warning says so). Texture coordinates are those of the unrolled rest
 // shape. lean: one column a vertex where v₁ is wanted, see wrinkle::leaning. Throws Error.
 WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& surface,
                          const wrinkle::CoarseField& field, std::optional<int> levels, bool with_v2,

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Not by the waves of each frame: all frames have one mesh.
+// Not from the waves of each frame, as all frames have the same mesh.
 constexpr int sequence_levels = 3;
 
 // Base surfaces one after the other.

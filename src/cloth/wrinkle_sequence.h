@@ -1,5 +1,5 @@
-// plisse wrinkle over time: base surfaces frame by frame → fields that glide with them → field files and
-// meshes.
+// plisse wrinkle over time: base surfaces frame by frame → fields that move continuously with them → field
+// files and meshes.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 namespace plisse::cloth {
 
 struct WrinkleSequenceRequest {
-  // What holds for every frame; its scene is not looked at. output and mesh are patterns. levels: 3 where
+  // The options of every frame; its scene is ignored. output and mesh are patterns. levels: 3 where
   // none are given, so that all frames have one mesh.
   WrinkleRequest each;
   std::filesystem::path bases;  // base_####.ply, or one base.ply, that `cache` moves
   std::filesystem::path cache;  // .pc2 or .mdd; empty: none
-  std::string frames;           // a selection; empty: all. Those before the last are solved all the same.
+  std::string frames;           // a selection; empty: all. All frames up to the last are solved.
   int fade = 6;                 // see wrinkle::SequenceOptions
   double hysteresis = 9;
   // After every frame: which, of how many.
