@@ -1,5 +1,5 @@
-// plisse bench: settings × scenes, time against error. Suites (suite.h) measure, writers (write.h) say it as
-// a table, as plots and as one page.
+// plisse bench: time against error for settings × scenes. Suites (suite.h) measure; writers (write.h) make a
+// table, plots and one page.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace plisse::bench {
 
-enum class Effort { smoke, quick, full };  // whether it runs at all; two minutes; twenty
+enum class Effort { smoke, quick, full };  // a test that it runs; two minutes; twenty minutes
 
 // One setting of one scene, with one kind of error.
 struct Row {
@@ -25,9 +25,9 @@ struct Row {
   std::string error_of = {};  // "picture", "phases": rows with the same are comparable
   double error = 0;
   std::string error_unit = {};
-  std::string truth = {};  // what the error is the distance to
+  std::string truth = {};  // the reference of the error
   bool detail = false;     // a part of another row's time: in the tables, not in the plots
-  bool on_front = false;   // no other row of its kind is both faster and nearer to the truth
+  bool on_front = false;   // no comparable row is both faster and more accurate
 
   std::string setting() const {
     return series.empty() || label.empty() ? series + label : series + ", " + label;
@@ -39,7 +39,7 @@ struct Picture {
 };
 
 struct SuiteReport {
-  std::string name, title, note;  // the note: what was compared with what, in sentences
+  std::string name, title, note;  // the note: what was compared, in sentences
   std::vector<Row> rows;
   std::vector<Picture> pictures;
 };
@@ -49,7 +49,7 @@ struct BenchReport {
   Effort effort = Effort::full;
   std::vector<SuiteReport> suites;
   std::vector<std::filesystem::path> outputs;
-  bool interrupted = false;  // the suites that were finished stand
+  bool interrupted = false;  // the finished suites are kept
   double wall_s = 0;
 };
 

@@ -1,4 +1,4 @@
-// What base surfaces cost: an example at several sizes, from its start to full load in one go.
+// The cost of base surfaces: an example at several sizes, from its start to full load in one step.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,13 @@ struct DrapeCost {
   std::size_t factor_nonzeros = 0;
 };
 
-// One after the other; `made` makes the scene of about so many vertices, `done` hears of each. An interrupt
-// ends it after the size that is being solved. Throws Error.
+// One size after the other; `made` makes the scene with about this many vertices, `done` is called after
+// each. An interrupt ends it after the current size. Throws Error.
 std::vector<DrapeCost> drape_costs(const std::function<cloth::DrapeScene(int vertices)>& made,
                                    const std::vector<int>& sizes,
                                    const std::function<void(const DrapeCost&)>& done = {});
 
-// Time over vertices, all and by what it goes into, both logarithmic.
+// Time over vertices, in total and by stage, both axes logarithmic.
 void plot_costs(const std::filesystem::path& file, const std::string& name,
                 const std::vector<DrapeCost>& costs);
 

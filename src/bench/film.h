@@ -1,4 +1,4 @@
-// A scene that is stepped and drawn at will, without files: what most suites measure. Needs a current
+// A scene that can be stepped and drawn freely, without files; most suites measure it. Needs a current
 // context.
 #pragma once
 
@@ -18,12 +18,12 @@ class Film {
  public:
   Film(const config::SceneSettings& settings, const std::string& name, bool software);
 
-  // The surface alone or with all of the scene's light, from whatever holds its waves.
+  // The surface alone or with all of the scene's light, from the given buffers.
   io::Image picture(const passes::SurfaceBuffers& surface);
   io::Image picture() { return picture(rig.surface()); }
-  // 1 where the rig's surface is seen, row by row.
+  // 1 where the rig's surface is visible, row by row.
   std::vector<std::uint8_t> covered();
-  // Waits until all that was ordered is done.
+  // Waits until all OpenGL commands are finished.
   void draw(const passes::SurfaceBuffers& surface);
 
   pipeline::LoadedScene scene;

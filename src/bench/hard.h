@@ -1,5 +1,5 @@
-// plisse bench hard: cases that break programs of this kind, each with the outcome that it must have. The
-// same list runs in the tests.
+// plisse bench hard: difficult cases for programs of this kind, each with its required result. The tests run
+// the same list.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,14 @@ namespace plisse::bench {
 
 struct Verdict {
   bool holds = false;
-  std::string found;  // what came out, in words and numbers
+  std::string found;  // the result, in words and numbers
 };
 
 struct HardCase {
   std::string area;  // passes | sizing | drape | wrinkle
   std::string name, must;
   bool draws = false;            // needs an OpenGL context, which it makes itself
-  std::function<Verdict()> run;  // an exception is a verdict too: it does not hold
+  std::function<Verdict()> run;  // an exception counts as a failure
 };
 
 const std::vector<HardCase>& hard_cases();
@@ -28,7 +28,7 @@ struct HardRow {
   double seconds = 0;
 };
 
-// Runs one case; whatever it throws becomes its verdict.
+// Runs one case; an exception becomes its verdict.
 HardRow judge(const HardCase& hard);
 
 std::string hard_markdown(const std::vector<HardRow>& rows);

@@ -1,5 +1,4 @@
-// Hard cases of skin, crush and relax: a sheet of a few hundred vertices under bones that do what bones
-// should not.
+// Hard cases of skin, crush and relax: a sheet of a few hundred vertices with extreme motions of its bones.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -39,8 +38,8 @@ void animate(Subject& subject, int frames, const Matrix& matrix) {
   }
 }
 
-// What has to hold of any state, whatever was done to the surface: finite, phases in (−π, π], no wave higher
-// than a quarter of its length. Says what does not, or nothing.
+// Conditions for every state, whatever the motion: finite, phases in (−π, π], no wave higher than a quarter
+// of its length. Returns the violation, or nothing.
 std::string unsound(Rig& rig, const Subject& subject) {
   const auto now = pipeline::read_snapshot(rig.surface());
   double highest = 0;
@@ -58,7 +57,7 @@ std::string unsound(Rig& rig, const Subject& subject) {
   return "";
 }
 
-// Whether what is drawn of it is finite: normals and heights, pixel by pixel.
+// Whether its picture is finite: normals and heights, pixel by pixel.
 bool draws_soundly(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& floats) {
   for (const passes::Aov aov : {passes::Aov::normal, passes::Aov::height}) {
     pass.draw_aov(rig.surface(), subject.view, floats, aov);
@@ -68,7 +67,7 @@ bool draws_soundly(passes::RenderPass& pass, Rig& rig, const Subject& subject, c
   return true;
 }
 
-// Steps through the clip and holds every state to that.
+// Steps through the clip and checks every state.
 Verdict steps_soundly(const Subject& subject) {
   const gpu::Context context;
   Rig rig(subject, context.info().software);
@@ -115,7 +114,7 @@ Verdict collapse() {
   return steps_soundly(subject);
 }
 
-// The triangles with this remainder by two turned round; both: all of them.
+// Reverses the triangles whose index has this remainder by two; both: all of them.
 Subject turned(bool even, bool odd) {
   Subject subject = sheet();
   for (std::size_t t = 0; t < subject.surface.triangle_count(); ++t) {
@@ -127,7 +126,7 @@ Subject turned(bool even, bool odd) {
   return subject;
 }
 
-// Which side is the front says nothing about how much is squeezed.
+// The orientation of triangles must not change the compression.
 Verdict mirrored() {
   const Subject mirror = turned(true, true);
   const Verdict verdict = steps_soundly(mirror);
@@ -145,7 +144,7 @@ Verdict mirrored() {
   return {apart < 1e-4, fmt::format("{}; compression differs by {:.1e}", verdict.found, apart)};
 }
 
-// No side is the front: normals cancel, and directions are anybody's guess.
+// Mixed orientations: normals cancel, and directions are undefined.
 Verdict mixed_winding() {
   return steps_soundly(turned(true, false));
 }
@@ -193,7 +192,7 @@ Verdict fan_of_200(bool normal_along_an_edge) {
   return {std::abs(s - 0.3) < 1e-4, fmt::format("the hub is squeezed by {:.5f}", s)};
 }
 
-// One way and the other alike: no direction, but as high as ever.
+// Equal compression in both directions: no direction, but the same height.
 Verdict isotropic() {
   Subject subject = sheet();
   animate(subject, 2,
@@ -214,7 +213,7 @@ Verdict isotropic() {
   return {apart < 1e-4, fmt::format("h/W is {:.6f}, {:.1e} off at most", now.heights[0] / W, apart)};
 }
 
-// A chain of triangles that all lie in one line: across it nothing is known, so nothing is squeezed there.
+// A chain of triangles that all lie in one line: across it nothing is known, so there must be no compression.
 Verdict line() {
   Subject subject = sheet();
   Surface chain;
@@ -286,7 +285,7 @@ double resident_MiB() {
 }
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr double most_grown = 512;  // MiB: AddressSanitizer holds back what was freed, 256 MiB of it
+constexpr double most_grown = 512;  // MiB: AddressSanitizer keeps 256 MiB of freed memory
 #else
 constexpr double most_grown = 1;
 #endif
@@ -294,7 +293,7 @@ constexpr double most_grown = 1;
 // A clip of ten frames a thousand times over.
 Verdict long_loop() {
   Subject subject = grid_subject(49, 64, 52);
-  // Rotating squeeze: it never stands still, and comes back to itself.
+  // A rotating compression: it always moves, and is periodic.
   animate(subject, 11, [](double time, double) {
     const double swing = std::sin(two_pi * time);
     return glm::scale(glm::dmat4(1), glm::dvec3(0.8 + 0.05 * swing, 1, 1));
@@ -319,7 +318,7 @@ Verdict long_loop() {
     wrinkled += late.weights[v] > 0 ? 1 : 0;
     drift = std::max(drift, std::abs(std::remainder(late.phases[v] - early.phases[v], two_pi)));
   }
-  // Relaxation has long ended after the first 1,000 frames; what is left is rounding. Drivers keep a little
+  // Relaxation has converged after the first 1,000 frames; the rest is rounding. Drivers keep a little
   // for themselves, once: a leak of 100 bytes a frame would be 1 MiB.
   const bool holds = drift < 1e-3 && grown < most_grown && wrinkled > 0;
   return {holds, fmt::format("phases moved by {:.1e} rad in the last 9,000 frames, memory by {:.2f} MiB",
@@ -349,7 +348,7 @@ Verdict scales() {
   double apart = 0;
   for (const double scale : {std::exp2(20), std::exp2(-20)})
     apart = std::max(apart, (heights(scale) - one).cwiseAbs().maxCoeff());
-  // Powers of two change no mantissa, so not even the last bit may differ.
+  // Powers of two do not change mantissas, so every bit must be equal.
   return {apart == 0 && one.maxCoeff() > 0, fmt::format("heights in model units differ by {:.1e}", apart)};
 }
 

@@ -1,4 +1,4 @@
-// Hard cases of whole scenes: what a file brings that no pass should have to see.
+// Hard cases of whole scenes: file contents that must not reach the passes.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// Hard cases of base surfaces and wrinkle fields (Chen et al. 2021): small scenes at the edges of what is
-// allowed.
+// Hard cases of base surfaces and wrinkle fields (Chen et al. 2021): small scenes at the limits of the
+// allowed values.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ Verdict inverted_start() {
   return converges_or_says_why(scene, start);
 }
 
-// Nothing pulls and nothing is longer than at rest: no energy, and it stops at once.
+// No loads and no stretch: no energy, and the search ends at once.
 Verdict all_slack() {
   cloth::DrapeScene scene = cloth::drape_example("strip", few);
   const shell::Positions rest = scene.rest;
@@ -83,7 +83,7 @@ Verdict all_slack() {
                       solution.equilibrium.iterations, solution.equilibrium.reason)};
 }
 
-// A strip that hangs on nothing while gravity pulls.
+// A strip under gravity that is not held.
 Verdict unheld() {
   cloth::DrapeScene scene = cloth::drape_example("strip", few);
   const auto vertices = static_cast<std::size_t>(scene.start.cols());
@@ -119,7 +119,7 @@ Verdict scaled(double scale) {
                       solution.equilibrium.reason)};
 }
 
-// The text of the error that a scene ends in once something is spoiled.
+// The error text of a scene after a change that makes it invalid.
 Verdict refused(const std::function<void(cloth::DrapeScene&)>& spoil, const std::string& word) {
   cloth::DrapeScene scene = cloth::drape_example("strip", few);
   spoil(scene);
@@ -150,7 +150,7 @@ Verdict onset_is_continuous() {
 
 // --- wrinkle fields
 
-// A point that is none, on a base surface that somebody else made.
+// A position that is not finite, on a base surface from another program.
 Verdict nan_in_the_base() {
   cloth::WrinkleRequest request;
   request.scene = cloth::base_of(cloth::drape_example("stretched-sheet", few));
@@ -163,7 +163,7 @@ Verdict nan_in_the_base() {
   return {false, "no error"};
 }
 
-// Squeezed in both directions at once: what the model is not for, but nothing to fall over.
+// Compression in both directions at once: outside the model, but it must not fail.
 Verdict squeezed_both_ways() {
   cloth::DrapeScene scene = cloth::drape_example("stretched-sheet", 200);
   scene.solved = true;

@@ -1,4 +1,4 @@
-// Hard cases of sizing (Zhang et al. 2025): stiffnesses and outlines that nobody should have drawn.
+// Hard cases of sizing (Zhang et al. 2025): invalid or extreme stiffnesses and outlines.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ std::string refused(const Action& action) {
   return "";
 }
 
-// An error that says so, of one line or a few.
+// An error text with this content, of one or a few lines.
 Verdict says(const std::string& text, const std::string& word) {
   if (text.empty()) return {false, "no error"};
   return {text.find(word) != std::string::npos, text};
@@ -133,8 +133,8 @@ Verdict tiny_and_huge() {
   return {true, fmt::format("1e-6 m: {}; 1e6 m: {}", small.empty() ? "meshed" : small, large)};
 }
 
-// r + x^m with m = ln r / ln L_w, printed without units, has a pole at L_w = 1 mm and turns round at r = 1
-// mm.
+// r + x^m with m = ln r / ln L_w, printed without units, has a pole at L_w = 1 mm and changes its sign at r =
+// 1 mm.
 Verdict literal_transition() {
   Panel panel = square(0.05);
   Feature feature;

@@ -1,4 +1,4 @@
-// What a measurement was taken on: without it a time says nothing.
+// The machine of a measurement, without which a time has no meaning.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace plisse::bench {
 
-// CPU time says what a software renderer costs, whoever else is at work; on a GPU it is only the driver's,
-// and the wall clock counts.
+// CPU time is the cost of a software renderer, independent of other processes; on a GPU it is only the
+// driver's, so the wall clock counts.
 inline Clock fair_clock(const gpu::Info& gl) {
   return gl.software ? Clock::cpu : Clock::wall;
 }
 
-// Names and values, for people: processor, OpenGL, compiler, date with the load average, version and commit.
+// Names and values as text: processor, OpenGL, compiler, date with the load average, version and commit.
 using Machine = std::vector<std::pair<std::string, std::string>>;
 Machine describe_machine(const gpu::Info& gl);
 

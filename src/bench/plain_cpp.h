@@ -1,5 +1,5 @@
 // Crush and one round of relax as plain C++ would have them, single precision and structures of three floats,
-// written from docs/passes.md: what the shaders are held against.
+// written from docs/passes.md: a comparison for the shaders' speed.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ struct PlainSurface {
   std::vector<float> weights;
   std::vector<Phase> phases, phases_next;
 
-  // Copies what is on the GPU, so that both start from the same.
+  // Copies the GPU's buffers, so that both start from the same state.
   explicit PlainSurface(const passes::SurfaceBuffers& gpu);
   std::size_t size() const { return positions.size(); }
 };

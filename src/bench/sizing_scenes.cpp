@@ -140,7 +140,7 @@ double sag_of_beam(const Strip& strip) {
       angle += ds / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
       slope += ds / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
       drop += ds / 2 * (std::sin(before) + std::sin(angle));
-      if (angle > pi) return 1.0;  // too much: it turns over
+      if (angle > pi) return 1.0;  // the curvature is too large: the beam turns over
       if (slope < 0) return slope;
     }
     return slope;
@@ -189,7 +189,7 @@ Crossing waves_across(const cloth::DrapeScene& scene, const Positions& positions
     high = std::max(high, point.z);
   }
   crossing.amplitude = (high - low) / 2;
-  if (crossing.amplitude < 0.01 * scene.material.thickness) return crossing;  // it stays flat
+  if (crossing.amplitude < 0.01 * scene.material.thickness) return crossing;  // it is flat
   // Half waves: runs between a height and a depth of a tenth of the greatest.
   int runs = 0, last = 0;
   for (const OnLine& point : points) {

@@ -1,4 +1,4 @@
-// A built-in scene solved from flat cloth to a wrinkle field, and the waves that a picture of it shows.
+// A built-in scene, solved from flat cloth to a wrinkle field, and its waves in a picture.
 #pragma once
 
 #include <glm/glm.hpp>

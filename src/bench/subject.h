@@ -1,4 +1,4 @@
-// What is measured: a surface with its poses and its look, from a scene of assets/ or generated.
+// The object of a measurement: a surface with its poses and its look, from a scene of assets/ or generated.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -37,10 +37,10 @@ struct Subject {
   double vertices() const { return static_cast<double>(surface.vertex_count()); }
 };
 
-// What a scene's skeleton makes of it, frame by frame.
+// The poses from a scene's skeleton, frame by frame.
 Subject subject_of(pipeline::LoadedScene& scene, const std::string& name);
-// A jittered grid in the unit square of about so many vertices, squeezed to 75 % along x and bent by four
-// bones; its view is for pictures of this size.
+// A jittered grid in the unit square with about this many vertices, compressed to 75 % along x and bent by
+// four bones; its view is for pictures of this size.
 Subject grid_subject(std::size_t vertices, int width, int height);
 
 // A subject on the GPU, stepped through its frames. Needs a current context.
@@ -53,12 +53,12 @@ class Rig {
   void skin();
   void crush();
   void relax(int rounds, bool onset);
-  // To the middle of the clip, where the project's models are wrinkled most.
+  // Steps to the middle of the clip, where the project's models have most wrinkles.
   void step_to_middle();
   void step_through_clip();
-  // Back before the clip's first frame, with nothing remembered.
+  // Resets to before the clip's first frame, without any state.
   void restart();
-  // The next frame under these settings: crush and relax every n-th frame alone.
+  // The next frame with these settings: crush and relax only every n-th frame.
   void advance(const config::RelaxSettings& settings);
 
   passes::SurfaceBuffers& surface() { return surface_; }

@@ -1,5 +1,5 @@
-// The suites of `plisse bench`, a file each. Every one makes its own OpenGL context: the program's own
-// `render` makes one too, and a process holds one at a time.
+// The suites of `plisse bench`, a file each. Each makes its own OpenGL context: `render` makes one too, and a
+// process can have only one at a time.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ SuiteReport measure_mesh(const Setup& setup);        // vertices for base surfac
 SuiteReport measure_sizing(const Setup& setup);      // the resolution paper's experiments
 SuiteReport measure_method(const Setup& setup);      // passes, fields, geometry, a buckling shell
 
-// Marks the rows that no other of the same scene and kind of error beats in both.
+// Marks the rows for which no other row of the same scene and kind of error is better in both.
 void mark_fronts(std::vector<Row>& rows);
 
 }  // namespace plisse::bench

@@ -1,5 +1,5 @@
-// How fine a mesh the solvers need: base surface and wrinkle field on meshes around what `plisse size`
-// recommends.
+// The mesh resolution that the solvers need: base surface and wrinkle field on meshes near the recommendation
+// of `plisse size`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 
 const std::string example = "stretched-sheet";
 
-// Vertices of an even mesh of this area whose edges are what the fabric asks for: equilateral triangles, half
-// a vertex each.
+// The number of vertices of a uniform mesh of this area with the fabric's edge length: equilateral triangles,
+// half a vertex each.
 double recommended_vertices(const cloth::WrinkleScene& scene) {
   double area = 0;
   for (const auto& face : scene.surface.rest) area += face.area;

@@ -1,6 +1,5 @@
-// Which method for which answer: the passes alone, the passes fed by a solved field, the field as geometry,
-// and a shell that buckles by itself, all measured by one ruler (`plisse measure`): the waves on their
-// geometry.
+// Comparison of methods: the passes alone, the passes with a solved field, the field as geometry, and a shell
+// that buckles by itself, all measured by `plisse measure`: the waves on their geometry.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -108,8 +107,7 @@ class Methods {
     return {label, seconds, wavelength_of(spectrum), amplitude_of(spectrum)};
   }
 
-  // From the flat cloth to the base surface in two frames: what an animation without any solved field would
-  // show.
+  // From the flat cloth to the base surface in two frames: the result of an animation without a solved field.
   void passes_alone() {
     const cloth::DrapeScene scene = cloth::drape_example(example, coarse(setup_));
     cloth::DrapeFrame frame;
@@ -122,7 +120,7 @@ class Methods {
     outcomes_.push_back(drawn("passes alone", settings, solved_.base_s));
   }
 
-  // St. Venant-Kirchhoff: no tension field, the mesh itself has to hold the waves.
+  // St. Venant-Kirchhoff: no tension field, so the mesh itself must resolve the waves.
   void buckled() {
     cloth::DrapeScene scene = cloth::drape_example(example, setup_.pick(150, 2000, 8000));
     scene.stretching = shell::Stretching::stvk;

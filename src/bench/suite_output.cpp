@@ -1,5 +1,5 @@
-// What leaves the renderer: samples a pixel against a picture of sixteen times the pixels, PNG level against
-// bytes, and whole runs by the number of threads.
+// Output: samples a pixel compared with a picture of sixteen times the pixels, PNG level over bytes, and
+// whole runs over the number of threads.
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -88,7 +88,7 @@ void measure_samples(const Setup& setup, SuiteReport& report) {
     report.rows.push_back(row);
   }
 
-  // PNG: the pixels are the same whatever the level, so what counts beside time is bytes.
+  // PNG: the pixels do not depend on the level, so time and bytes are compared.
   const io::Image picture = films[1]->picture();
   std::vector<std::size_t> bytes;
   std::vector<Case> levels;

@@ -1,5 +1,5 @@
-// What single precision and the place of the work do to each pass: shader, plain C++ and the reference, all
-// from the same state.
+// Effect of single precision on the error, and of the implementation on the time, of each pass: shader, plain
+// C++ and the reference, all from the same state.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -160,7 +160,7 @@ class Precision {
   }
 
   void relax() {
-    film_.rig.relax(1, true);  // phases for those that began to wave
+    film_.rig.relax(1, true);  // phases for new waves
     const auto& topology = film_.reference.topology;
     const pipeline::WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
     PlainSurface plain(film_.rig.surface());

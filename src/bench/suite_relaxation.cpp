@@ -1,5 +1,5 @@
-// How many rounds of which relaxation, and how often: misfit of neighbouring waves, and the picture's
-// distance from that of phases that have converged in every frame.
+// Mode, number of rounds and interval of relax: misfit of neighbouring waves, and the difference of the
+// picture from one with converged phases in every frame.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ std::vector<Setting> settings_to_try() {
 
 constexpr int converged_rounds = 256;
 
-// Frames that are looked at, 0-based and ascending; the last one ends the run.
+// Frames that are measured, 0-based and ascending; the last one ends the run.
 std::vector<int> looks(std::size_t clip, int most) {
   const int last = std::min(static_cast<int>(clip), most) - 1;
   return {last / 3, 2 * last / 3, last};
@@ -82,7 +82,7 @@ class Clip {
     }
     return result;
   }
-  // Of each look, where the surface is.
+  // For each measured frame, where the surface is.
   std::vector<std::vector<std::uint8_t>> masks() const {
     std::vector<std::vector<std::uint8_t>> result;
     film_.rig.restart();

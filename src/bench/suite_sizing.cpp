@@ -1,5 +1,5 @@
 // What the mesh resolution paper measured (D. Zhang et al., SIGGRAPH 2025, 5.2), measured here: waves of a
-// stretched sheet, the sag of a strip, and the transition of a gathered curtain, each against edge length or
+// stretched sheet, the sag of a strip, and the transition of a gathered curtain, each over edge length or
 // stiffness.
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ void save_plot(const Setup& setup, SuiteReport& report, const std::string& name,
 void measure_sheet(const Setup& setup, SuiteReport& report) {
   const double recommended =
       sizing::fabric_resolution(sizing::resolution_law(), {sizing::bending_stiffness(1e6, 1e-4, 0.5), 1e6});
-  // The finest stands for the truth.
+  // The finest mesh is the reference.
   std::vector<double> edges = setup.pick<std::vector<double>>(
       {0.02, 0.015}, {4.0 / 3 * recommended, recommended, 2.0 / 3 * recommended},
       {5e-3, 3.8e-3, 2.5e-3, 4.0 / 3 * recommended, recommended, 2.0 / 3 * recommended, 1.8e-3});

@@ -1,6 +1,6 @@
-// Timing on a shared machine. Google Benchmark runs one case to its end before the next, so that a busy
-// minute falls on one side of a ratio; here the cases take turns, sample by sample, and ratios are of samples
-// that were neighbours in time.
+// Timing on a shared machine. Google Benchmark finishes one case before the next, so that a busy minute
+// affects only one side of a ratio; here the cases alternate, sample by sample, and ratios are of consecutive
+// samples.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace plisse::bench {
 enum class Clock {
   wall,
   cpu
-};  // cpu: all threads of this process, the fair one where others compete for the cores
+};  // cpu: all threads of this process, for use where other processes compete for the cores
 
 struct Sample {
   double wall_s = 0, cpu_s = 0;  // of one run
@@ -21,7 +21,7 @@ struct Sample {
 
 struct Case {
   std::string name;
-  std::function<void()> run;  // returns when all of its work is done: on a GPU that takes a glFinish
+  std::function<void()> run;  // returns when all of its work is done: on a GPU this needs a glFinish
 };
 
 struct Turns {
@@ -50,7 +50,7 @@ class Samples {
 // `turns.samples` times.
 std::vector<Samples> take_turns(const std::vector<Case>& cases, const Turns& turns);
 
-// Of the pairs of samples that were taken one after the other.
+// Of the pairs of consecutive samples.
 Distribution ratio(const Samples& numerator, Clock clock, const Samples& denominator,
                    Clock denominator_clock);
 inline Distribution ratio(const Samples& numerator, const Samples& denominator, Clock clock) {

@@ -28,7 +28,7 @@ std::vector<WrinkleCost> wrinkle_costs(cloth::WrinkleRequest request,
                                        const std::function<void(const WrinkleCost&)>& done) {
   request.output.clear();
   request.mesh.clear();
-  request.cache.clear();  // what was solved before would cost nothing
+  request.cache.clear();  // results from the cache would cost nothing
   std::vector<WrinkleCost> costs;
   for (const int size : sizes) {
     WrinkleCost cost;

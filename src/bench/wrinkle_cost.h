@@ -1,4 +1,4 @@
-// What wrinkle fields cost: an example's base surface at several sizes, each solved.
+// The cost of wrinkle fields: an example's base surface at several sizes, each solved.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +29,7 @@ std::vector<WrinkleCost> wrinkle_costs(cloth::WrinkleRequest request,
                                        const std::vector<int>& sizes,
                                        const std::function<void(const WrinkleCost&)>& done = {});
 
-// Time over vertices, all and by what it goes into, both logarithmic.
+// Time over vertices, in total and by stage, both axes logarithmic.
 void plot_costs(const std::filesystem::path& file, const std::string& name,
                 const std::vector<WrinkleCost>& costs);
 

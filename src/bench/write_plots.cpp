@@ -53,7 +53,7 @@ std::vector<RowPlot> plots(const SuiteReport& suite) {
       ++points;
     }
     if (points < 2) continue;
-    // One label for all says nothing beside a point: it goes into the title.
+    // A label that is the same for all points goes into the title.
     const std::string& label = plot.series.front().points.front().label;
     const bool same = std::all_of(plot.series.begin(), plot.series.end(), [&](const io::PlotSeries& series) {
       return std::all_of(series.points.begin(), series.points.end(),
