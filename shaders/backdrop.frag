@@ -1,9 +1,9 @@
-// A studio's backdrop: a floor that runs into the wall without a seam, the shadows on it from the ground map.
+// The backdrop: a floor that passes into the wall without a visible edge, with the shadows of the ground map.
 flat in vec4 backdrop_colour;  // linear; alpha
 flat in vec2 pixel;            // its size in pictures
 in vec3 near_place;            // the ray's ends: place in the ground map, height above the floor
 in vec3 far_place;
-layout(binding = 3) uniform sampler2D ground_map;  // how much of the key light and of the sky is taken away
+layout(binding = 3) uniform sampler2D ground_map;  // blocked shares of the key light and of the sky
 layout(location = 0) out vec4 colour;
 void main() {
     vec2 centred = gl_FragCoord.xy * pixel - 0.5;
@@ -15,7 +15,7 @@ void main() {
         vec2 taken = texture(ground_map, place).rg * (rim.x * rim.y);
         c *= (1.0 - 0.5 * taken.x) * (1.0 - 0.55 * taken.y);
     }
-    // Half a step of noise keeps eight bits from showing the gradient as bands (interleaved gradient noise, Jimenez 2014).
+    // Half a step of noise prevents visible bands in the gradient (interleaved gradient noise, Jimenez 2014).
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
     colour = vec4(c * (1.0 + noise * (3.0 / 255.0)), backdrop_colour.a);
 }

@@ -15,7 +15,7 @@ uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
 
 const float floor_of_r = 0.05;         // r_min
-const float isotropy = 0.01;           // g below which a direction means little
+const float isotropy = 0.01;           // below this g a direction is uncertain
 
 void main() {
     uint v = item_index();
@@ -55,8 +55,8 @@ void main() {
     float squares = sigma1 * sigma1 + sigma2 * sigma2;
     float g = squares > 0.0 ? (sigma1 - sigma2) * (sigma1 + sigma2) / squares : 0.0;
 
-    // k is taken whole the first time, and again by a vertex that was idle; then follows with the certainty of the new
-    // direction (contract, "Direction").
+    // k is set to the new direction the first time, and at a vertex that was idle; later it follows by the certainty of the
+    // new direction (docs/contract.md, "State over time", rule 2).
     float status = phase(v).y;
     vec2 k = state(v).xy, toward = dot(k, v2) < 0.0 ? -v2 : v2;
     bool has_direction = dot(k, k) > 0.0 && (always_set || status != idle);

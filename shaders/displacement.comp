@@ -1,5 +1,5 @@
-// Displacement, points: each point of a finer surface as one of the triangles that were split sees it, moved along the
-// normal by the height field, with the normal that the moved surface has there, and what its groove leaves of the sky. Points
+// Displacement, points: each point of a finer surface, computed in one of the triangles that were split, moved along the
+// normal by the height field, with the normal of the moved surface there, and the visible share of the sky. Points
 // that triangles share come once for each; displacement_mean.comp takes them together. docs/passes.md, "Displacement"
 // (v2 of Chen et al. 2021 with FIELD).
 #include "common/items.glsl"
@@ -61,7 +61,7 @@ void main() {
         start[i] = phase(id).x * (0.5 / pi) + dot(state(id).xy, constant(id).zw);
     }
     float n_length = length(n);
-    n = n_length > 0.0 ? n / n_length : vec3(0.0);  // halfway between normals that look away from each other there is none
+    n = n_length > 0.0 ? n / n_length : vec3(0.0);  // opposite normals have no mean
     vec3 ab = p[1] - p[0], ac = p[2] - p[0], bc = p[2] - p[1], area = cross(ab, ac);
     float square = dot(area, area);
     gradient_beta = safe_divide(cross(ac, area), square);
@@ -107,7 +107,7 @@ void main() {
         gradient += c * swell - 2.0 * pi * A * s * slope;
         float sin2 = 2.0 * s * c, cos2 = c * c - s * s;
         slide_direction = 2.0 * pi * slope;
-        float share = min(0.125, 0.5 / max(A * A * dot(slide_direction, slide_direction), 1e-9));  // cloth stays in order
+        float share = min(0.125, 0.5 / max(A * A * dot(slide_direction, slide_direction), 1e-9));  // against folding over
         sliding = share * A * A * sin2 * slide_direction;
         slide_climb = 2.0 * share * A * (sin2 * swell + A * cos2 * slide_direction);
     }

@@ -1,4 +1,4 @@
-// Displacement, vertices: what the triangles round a vertex say of it, taken together. By define: PLACES, a position's place and
+// Displacement, vertices: the mean of the results of the triangles around a vertex. By define: PLACES, a position's place and
 // relief; NORMALS, a vertex's normal, which those across a hard edge do not share. docs/passes.md, "Displacement".
 #include "common/items.glsl"
 

@@ -1,5 +1,5 @@
-// The ground map, two programs by define: CAST asks the depth maps what stands between a point of the floor and the key
-// light (x) and how close the surface hangs above it (y); BLUR softens one axis, x and y by widths of their own.
+// The ground map, two programs by define: CAST reads from the depth maps what is between a point of the floor and the key
+// light (x) and how close the surface is above it (y); BLUR blurs along one axis, with separate widths for x and y.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rg16f) uniform restrict writeonly image2D result;
 uniform int size;

@@ -1,4 +1,4 @@
-// Plain textured Phong: the yardstick that the benchmark holds the wave shader against, and nothing else.
+// Plain textured Phong: only for comparison with the wave shader in the benchmark.
 #include "common/constants.glsl"
 #include "common/scene.glsl"
 #define INTERFACE in

@@ -34,7 +34,7 @@ uniform bool fresh_ones;  // they begin with the other moment's phase, and are s
 
 float wrap_turns(float x) { return x - ceil(x - 0.5); }  // to (−½, ½]
 
-// What the phase of vertex v (turns) would be for its wave to meet that of its neighbour halfway; `turn` is the part
+// The phase of vertex v (turns) with which its wave agrees with its neighbour's at the midpoint; `turn` is the part
 // that does not depend on the neighbour's phase, `sgn` its factor.
 void meeting(vec3 x, vec3 wavenumber, uint n, vec3 other, out float sgn, out float turn) {
     vec3 half_way = 0.5 * (position(n) - x);
@@ -69,7 +69,7 @@ void main() {
     vec2 own = phase(v), aim = texelFetch(led_phases, int(v)).xy;
     phases_out[v] = own;
     if (own.y != (fresh_ones ? fresh : set) || aim.y != set) return;
-    // A direction that has turned over since is the same wave with the phase's sign turned.
+    // With the opposite direction, the phase of the same wave has the opposite sign.
     float sgn = dot(state(v).xy, texelFetch(led_states, int(v)).xy) < 0.0 ? -1.0 : 1.0;
     float turns = own.x * (0.5 / pi);
     turns += fraction * wrap_turns(sgn * aim.x * (0.5 / pi) - turns);

@@ -58,7 +58,7 @@ void add_field(inout Wrinkle result, Weights at, vec3 b) {
 #endif
 
 #ifdef FADED
-// What is left of waves that are gone from the normal: the slopes that the roughness has to show for them.
+// Waves that are too short for the normal: the variance of their slopes, for the roughness.
 Wrinkle wrinkle_at(vec3 b) {
 #ifdef FINE_WAVES
     vec3 lost = vec3(COARSE_SHARE * COARSE_SHARE + FINE_SHARE * FINE_SHARE * FINE_WAVES * FINE_WAVES);
@@ -102,7 +102,7 @@ Wrinkle wrinkle_at(vec3 b) {
 #endif
 
 #ifdef NORMAL_MAP
-// Where a coordinate with gradient g grows along the surface, unit.
+// The unit direction in which a coordinate with gradient g grows along the surface.
 vec3 growth(vec3 g, vec3 n) {
     vec3 along_surface = g - dot(g, n) * n;
     return along_surface * inversesqrt(max(dot(along_surface, along_surface), 1e-30));
@@ -207,7 +207,7 @@ void main() {
 #ifndef PLAIN
     if (aov == AOV_HEIGHT) colour.rgb = vec3(wrinkle.height);
     if (aov == AOV_AMPLITUDE) colour.rgb = vec3(wrinkle.amplitude);
-    // Phase and direction are those of the wave that weighs most here.
+    // Phase and direction are those of the wave with the largest weight here.
     float most = max(b.x, max(b.y, b.z));
     bool first = b.x == most, second = !first && b.y == most;
     float own = first ? tau.x : second ? tau.y : tau.z;

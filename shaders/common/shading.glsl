@@ -26,7 +26,7 @@ vec3 shoulder(vec3 x) {
 }
 
 // N: the wrinkled normal, n: the surface's own, both toward the eye; v: to the eye; lost_slope: variance of the slope
-// that a pixel is too coarse to show; occlusion: how much of the sky a valley sees.
+// that a pixel is too coarse to show; occlusion: the share of the sky that is visible from a valley.
 vec3 shade(vec3 albedo, vec3 N, vec3 n, vec3 v, float lost_slope, float occlusion) {
     float a2 = clamp(lit_from[0].w + lost_slope, 1e-3, 1.0);
     float Nv = dot(N, v), grazing = 1.0 - max(Nv, 0.0);
@@ -38,7 +38,7 @@ vec3 shade(vec3 albedo, vec3 N, vec3 n, vec3 v, float lost_slope, float occlusio
         float NL = dot(N, L), d = max(0.0, (NL + 0.15) * (1.0 / 1.15)) * smoothstep(-0.15, 0.25, dot(n, L));
         if (i == 0) d *= key_shadow(n);
         vec3 light = lit_by[i].rgb * (d * (i == 0 ? 0.5 + 0.5 * occlusion : occlusion));
-        // H is never made: with s = |L + v| = 2 L·H, N·H = (N·L + N·v)/s; D's denominator is multiplied by s⁴.
+        // H is not computed: with s = |L + v| = 2 L·H, N·H = (N·L + N·v)/s; D's denominator is multiplied by s⁴.
         float s2 = max(2.0 + 2.0 * dot(L, v), 1e-6), m = 1.0 - 0.5 * sqrt(s2), m2 = m * m;
         float NH_s = NL + Nv, q = NH_s * NH_s * (a2 - 1.0) + s2;
         diffuse += light;

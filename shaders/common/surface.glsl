@@ -1,6 +1,6 @@
 // The welded surface in every pass, fetched item by item (gpu/buffer.h says why not from storage buffers);
 // passes/surface_buffers.cpp binds it. Entry i of row v of a list lies at offset(v) ≤ i < offset(v + 1).
-// What a pass computes it writes to storage of its own declaring; an item it both fetches and writes it fetches first.
+// A pass declares its own storage buffers for its results; it fetches an item before it writes it.
 layout(binding = 8) uniform samplerBuffer positions;      // x'
 layout(binding = 9) uniform samplerBuffer frames;         // n', t' of a vertex, one after the other
 layout(binding = 10) uniform usamplerBuffer offsets;
