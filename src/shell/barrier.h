@@ -1,4 +1,4 @@
-// What keeps points out of solid bodies: a smooth wall that is infinite at their surface.
+// The barrier that keeps points out of solid bodies: a smooth potential that is infinite at their surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@ namespace plisse::shell {
 
 struct Distance {
   double value = 0;                                  // m; positive outside
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // unit: the way out
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // unit: the direction out of the body
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // 1/m
 };
 
@@ -19,7 +19,7 @@ struct Barrier {
 };
 Barrier barrier(double distance, double gap);
 
-// The same by a point's place.
+// The same by a point's position.
 struct Contact {
   double value = 0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();

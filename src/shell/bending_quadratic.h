@@ -15,9 +15,9 @@ namespace plisse::shell {
 // quadratic functions on regular meshes, the right-angled ones with either diagonal included.
 //
 // At free boundaries the flux through the boundary is that of the triangle there, so that linear functions
-// cost nothing: what is flat or rigidly moved has no energy, and the curvature across a free edge is taken to
-// vanish there, as it does on a plate that nobody holds (Wang et al. 2015 has a correction for the same
-// purpose). Where sewn panels meet at a seam the boundary is none.
+// have no energy: a flat or rigidly moved shell has none, and the curvature across a free edge is taken as 0,
+// as on a plate with a free edge (Wang et al. 2015 has a correction for the same purpose). Seams of sewn
+// panels are not boundaries.
 Eigen::SparseMatrix<double> bending_quadratic(const Material& material, const Topology& topology,
                                               const std::vector<RestFace>& rest);
 

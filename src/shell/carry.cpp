@@ -73,7 +73,7 @@ std::optional<Positions> followed(const std::vector<Obstacle>& before, const std
       const Distance moved =
           distance(after[o], from - was.value * was.first);  // the surface that was beside it
       if (moved.value == 0) continue;
-      // Its way out has turned over: it is nearer to the body's other side.
+      // The direction out of the body has reversed: the point is nearer to its other side.
       if (moved.first.dot(was.first) < -0.1) fine = false;
       const double motion = std::abs(moved.value), beside = std::max(was.value, 0.0);
       shift -= moved.value / (1 + beside / (2 * motion)) * moved.first;

@@ -1,5 +1,5 @@
-// Where the free part of a shell goes when what is held, or what it lies on, moves: a good start for the next
-// equilibrium.
+// Moves the free part of a shell when its held vertices, or the obstacles under it, move: a good start for
+// the next equilibrium.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace plisse::shell {
 
-// The held coordinates in their places; the others moved by the harmonic extension, over the rest shape, of
-// how far those had to go. Coordinates of parts that hold none in that direction stay.
+// The held coordinates at their new values; the others moved by the harmonic extension of the held
+// displacements over the rest shape. Coordinates of parts that are not held in that direction do not change.
 Positions carried(const Shell& shell, const Conditions& conditions, const Positions& positions);
 
-// The same obstacles, moved: free vertices go with the surface beside them, by all of its motion m along its
-// normal where they touch it and by m/(1 + d/2m) at a distance d, so that none is caught up. Nothing where
-// some would be, or where the surface moves as far as a body is thick: take a shorter way.
+// For moved obstacles: free vertices move with the obstacle's surface next to them, along its normal, by its
+// whole motion m where they touch it and by m/(1 + d/2m) at a distance d, so that the obstacle overtakes
+// none. Returns nothing where it would overtake one, or where the surface moves as far as a body is thick:
+// then use smaller steps.
 std::optional<Positions> followed(const std::vector<Obstacle>& before, const std::vector<Obstacle>& after,
                                   const Conditions& conditions, const Positions& positions);
 
-// Where the point of an obstacle's surface next to `point` has gone with it, seen from `point`: what sticks
-// to it goes along. Spheres, capsules, cylinders and planes are known by their places alone: they do not
-// spin.
+// The new position of `point` if it moves with the nearest point of an obstacle's surface, for anchors of
+// friction. Spheres, capsules, cylinders and planes have only positions: they do not spin.
 Eigen::Vector3d carried_along(const Obstacle& before, const Obstacle& after, const Eigen::Vector3d& point);
 
 }  // namespace plisse::shell

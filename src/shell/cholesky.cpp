@@ -69,7 +69,7 @@ std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>&
   return all;
 }
 
-// Whether two neighbouring supernodes are worth being one, for so many zeros among so many numbers.
+// Whether to merge two neighbouring supernodes, given the number of zeros among all numbers.
 bool worth_merging(std::size_t width, double zeros, double numbers) {
   const double share = zeros / numbers;
   return width <= 12 ? share < 0.8 : width <= 48 ? share < 0.2 : share < 0.05;
@@ -218,7 +218,7 @@ bool Cholesky::factorise(const Eigen::SparseMatrix<double>& lower) {
     if (nodes_[n].children.empty()) leaves.push_back(n);
   }
   std::atomic<bool> positive = true;
-  // Whoever finishes the last child of a supernode goes on with it.
+  // The thread that finishes the last child of a supernode continues with the supernode.
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t leaf) {
     for (std::int64_t n = leaves[leaf]; n >= 0 && positive;) {
       if (!eliminate(static_cast<std::uint32_t>(n), lower.valuePtr(), updates)) positive = false;

@@ -1,9 +1,10 @@
 // A = L Lᵀ of sparse matrices, multifrontal: most of the work in dense blocks, on all cores.
 //
 // J. Liu, "The Multifrontal Method for Sparse Matrix Solution: Theory and Practice", SIAM Review 34 (1992),
-// with relaxed supernodes (C. Ashcraft and R. Grimes 1989). Eigen's own factorisations go column by column.
-// Of the libraries that do not, SuiteSparse's supernodal part is GPL, PaStiX is not in Debian 12, and MUMPS
-// (CeCILL-C) is, but brings the Fortran run time, LAPACK, Scotch and a stand-in for MPI for this one solver.
+// with relaxed supernodes (C. Ashcraft and R. Grimes 1989). Eigen's own factorisations work column by column.
+// Of the libraries with dense blocks, SuiteSparse's supernodal part is GPL, PaStiX is not in Debian 12, and
+// MUMPS (CeCILL-C) is, but brings the Fortran run time, LAPACK, Scotch and a stand-in for MPI for this one
+// solver.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -16,22 +17,22 @@ namespace plisse::shell {
 class Cholesky {
  public:
   // Plans for matrices of this pattern: the lower half of a symmetric one, compressed, its diagonal whole, in
-  // an order that keeps L sparse. The pattern is not looked at again.
+  // an order that keeps L sparse. The pattern is not checked again.
   void analyse(const Eigen::SparseMatrix<double>& lower);
-  // False where the matrix is not positive definite. The same bytes whatever the number of threads.
+  // False where the matrix is not positive definite. The result has the same bytes for any number of threads.
   bool factorise(const Eigen::SparseMatrix<double>& lower);
-  // Of the last matrix that was.
+  // With the last factorised matrix.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
   std::size_t nonzeros() const { return panels_.size(); }
 
  private:
-  // Columns first … first + width − 1 of L, which share their rows below; the front has these columns, then
-  // rows.
+  // Columns first … first + width − 1 of L, which have the same rows below; the front has these columns, then
+  // the rows.
   struct Supernode {
     std::int32_t first = 0, width = 0;
     std::vector<std::int32_t> rows;         // below, ascending
-    std::vector<std::int32_t> into_parent;  // of each row: its place in the parent's front
+    std::vector<std::int32_t> into_parent;  // of each row: its index in the parent's front
     std::vector<std::uint32_t> children;
     std::int64_t parent = -1;
     std::size_t panel = 0;  // where its columns begin in panels_, height() numbers each

@@ -18,9 +18,9 @@ using Index = std::ptrdiff_t;
 #define PLISSE_AVX2 __attribute__((target("avx2")))
 #endif
 
-constexpr Index depth_block = 192;  // so deep is what is packed at a time
+constexpr Index depth_block = 192;  // depth of a packed block
 constexpr Index row_block = 128;    // rows of A that stay in the second cache: 192 kB
-constexpr Index column_block = 48;  // columns of a panel that are factorised before the rest hears of them
+constexpr Index column_block = 48;  // columns of a panel that are factorised before the rest is updated
 constexpr Index strip_rows = 64;    // rows below them at a time: 24 kB
 
 // Tiles of Vectors·Lanes rows and Columns columns.
@@ -100,7 +100,7 @@ template <typename T, typename Rows>
 void subtract_blocks(const double* a, Index a_stride, double* c, Index c_stride, Index rows, Index columns,
                      Index depth, const Rows& subtract) {
   thread_local std::vector<double> left_buffer, right_buffer;
-  // Others' work that this thread takes up while it waits for its own would pack into the same buffers.
+  // While this thread waits it must not take other work, which would use the same buffers.
   std::vector<double> left, right;
   left.swap(left_buffer);
   right.swap(right_buffer);

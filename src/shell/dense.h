@@ -1,16 +1,17 @@
-// The dense blocks of a sparse factorisation: where all of its time goes.
+// The dense blocks of a sparse factorisation, which take almost all of its time.
 //
 // K. Goto and R. van de Geijn, "Anatomy of High-Performance Matrix Multiplication", ACM TOMS 34 (2008):
 // blocks that stay in a cache, packed so that a small tile of the result is summed up in registers. AVX2 is
-// used where the processor has it. Every number is summed in the same order whatever the processor and the
-// number of threads, and nothing is fused, so the bytes are the same, signs of zeros included.
+// used where the processor has it. Every number is summed in the same order on each processor and with any
+// number of threads, without fused multiply-add, so the bytes are the same, signs of zeros included.
 #pragma once
 
 #include <cstddef>
 
 namespace plisse::shell {
 
-// Which are used. `plain` is what processors without AVX2 have, on any: for tests of one against the other.
+// The choice of kernels. `plain` are those of processors without AVX2, on any processor: for tests that
+// compare both.
 enum class Kernels { widest, plain };
 // Whether `widest` is something else than `plain` here.
 bool has_wide_kernels();

@@ -1,9 +1,9 @@
-// One term of a shell's potential energy: what the sum of all of them (potential.h) asks of it. A term is a
-// class in a file of its own, term_NAME.cpp, and a line in the list of terms (energy_terms.h); nothing else
-// knows it.
+// One term of a shell's potential energy: its interface for the sum of all terms (potential.h). A term is a
+// class in its own file, term_NAME.cpp, and a line in the list of terms (energy_terms.h); no other file
+// depends on it.
 //
-// Energies are in J, gradients (forces that the shell would need to stay) in N, Hessians in N/m. A load that
-// turns with the shell is a term where it has an energy, as pressure has.
+// Energies are in J, gradients (the forces that would keep the shell in place) in N, Hessians in N/m. A load
+// that rotates with the shell is a term if it has an energy, as pressure has.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,12 +27,12 @@ class EnergyTerm {
 
   virtual std::string_view name() const = 0;  // as messages call it
 
-  // Its Hessian is 0 everywhere, so nobody asks for it.
+  // Its Hessian is 0 everywhere, and is not evaluated.
   virtual bool linear() const { return false; }
-  // What its energy lacks beside the one from the world's origin, J (TermInput::origin).
+  // The difference of its energy to that measured from the world's origin, J (TermInput::origin).
   virtual double offset() const { return 0; }
 
-  // For terms that go by something looked up earlier, as friction goes by the forces of contact: look_up()
+  // For terms that use lagged quantities, as friction uses earlier forces of contact: look_up()
   // is called before the first step (`first`) and every few steps, and may change the energy.
   virtual bool lags() const { return false; }
   virtual void look_up(const Positions&, bool /*first*/) {}
@@ -40,31 +40,32 @@ class EnergyTerm {
   virtual double friction(const Positions&) const { return 0; }
   virtual std::vector<Positions> anchors(const Positions&) const { return {}; }  // as Loads::anchors
 
-  // The share, at most 1, of a straight way that a vertex may go: for energies that are infinite somewhere.
+  // The share, at most 1, of a straight path that a vertex may follow: for energies that are infinite
+  // somewhere.
   virtual double safe_share(const Eigen::Vector3d& /*from*/, const Eigen::Vector3d& /*to*/) const {
     return 1;
   }
 };
 
-// A sum over elements, each a function of the places of a few vertices.
+// A sum over elements, each a function of the positions of a few vertices.
 template <int Vertices>
 class ElementTerm : public EnergyTerm {
  public:
   using Gradient = Eigen::Matrix<double, 3 * Vertices, 1>;
   using Hessian = Eigen::Matrix<double, 3 * Vertices, 3 * Vertices>;
   // The energy of one element; its derivatives by x₀ y₀ z₀ x₁ … are written where asked for. Of
-  // Curvature::positive only the Hessian is different: faces and flaps leave out what may have negative
-  // curvature; of vertices the sum takes the convex part of what all terms give together.
+  // Curvature::positive only the Hessian is different: faces and flaps leave out parts that may have negative
+  // eigenvalues; for vertices the sum takes the positive semidefinite part of all terms together.
   virtual double element(std::uint32_t index, const Positions& x, Gradient* gradient, Hessian* hessian,
                          Curvature curvature) const = 0;
 };
 using VertexTerm = ElementTerm<1>;  // an element each vertex that has faces
 using FaceTerm = ElementTerm<3>;    // each face: its corners
-// Each face: its corners, then the vertices across its edges. Rows of a vertex that is not there are 0, those
-// of one beyond a mirror are by the corner that it mirrors.
+// Each face: its corners, then the vertices across its edges. Rows of a missing vertex are 0; those of a
+// vertex beyond a mirror are by the corner that it mirrors.
 using FlapTerm = ElementTerm<6>;
 
-// Sums, of which rounding and the scale of forces are known.
+// Sums with the data for their rounding errors and for the scale of forces.
 struct EnergySum {
   double energy = 0;    // J
   double summands = 0;  // J: their absolute values; what rounding is relative to

@@ -46,7 +46,7 @@ Matrix2d second_form(const RestFace& rest, const Corners& corners, const Corners
     const Vector3d beyond = (across.col(i) - from).cross(edge);
     const Vector3d middle = normal.normalized() + beyond.normalized();
     const double length = middle.norm();
-    if (!(length > 0)) continue;  // folded flat onto itself: the normal between the two is anybody's guess
+    if (!(length > 0)) continue;  // folded flat onto itself: the mean normal is undefined
     // Edges from corner i to the edge all rise by (corner i+1 − corner i)·n_i over the mid-edge normal n_i.
     const double rise = (from - corners.col(i)).dot(middle) / length;
     form -= 2 * rise * rest.gradients.col(i) * rest.gradients.col(i).transpose();

@@ -29,10 +29,10 @@ Principal principal(const Eigen::Matrix2d& symmetric);
 Principal principal_strain(const RestFace& rest, const Corners& corners);
 
 // II = −drᵀ dn from mid-edge normals, 1/m; positive where the surface bends toward its normal. `across[i]`:
-// the vertex beyond the edge opposite to corner i; not looked at where `has[i]` is false: there the mid-edge
+// the vertex beyond the edge opposite to corner i; not used where `has[i]` is false: there the mid-edge
 // normal is the face's own. Elsewhere it is the *unit* vector halfway between the two faces' normals. (The
-// appendix averages without normalising, the authors' code takes tan θ/2 of the bending angle θ where this
-// has sin θ/2; all agree to O(θ³).)
+// appendix averages without normalising; for a bending angle θ the authors' code has tan θ/2 where this has
+// sin θ/2; all agree to O(θ³).)
 Eigen::Matrix2d second_form(const RestFace& rest, const Corners& corners, const Corners& across,
                             const std::array<bool, 3>& has);
 

@@ -17,10 +17,10 @@ struct Loads {
   double gap = 1e-3;             // m: obstacles begin to push this far off
   double contact_stiffness = 0;  // N/m³ for the barrier; 0: chosen from the loads
   double friction = 0;           // μ, Coulomb's, on all obstacles
-  double slip = 0;               // m: a grip has slipped so far where friction is all it can be; 0: gap/10
-  // Where vertices stick to each obstacle that they touch at the start: 3×V an obstacle, not a number where
-  // they touched nothing before; empty, or so: where they start. For obstacles that have moved since
-  // (carried_along).
+  double slip = 0;               // m: slip length ε, from which on friction has its full force; 0: gap/10
+  // The anchors of vertices that touch an obstacle at the start: 3×V for each obstacle, NaN for vertices
+  // without earlier contact; for these, or if it is empty: the start positions. After obstacles have moved,
+  // see carried_along.
   std::vector<Positions> anchors;
 
   double slip_length() const { return slip > 0 ? slip : 0.1 * gap; }

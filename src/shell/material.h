@@ -12,13 +12,13 @@ struct Material {
   // The Lamé parameters of plane stress, Pa: ‖M‖²_SV = α/2 tr²M + β tr M².
   double alpha() const { return young * poisson / (1 - poisson * poisson); }
   double beta() const { return young / (2 * (1 + poisson)); }
-  // B = Y h³ / 12(1 − ν²), N·m: what a metre of sheet resists being bent with.
+  // B = Y h³ / 12(1 − ν²), N·m: the bending stiffness per metre of width.
   double bending_stiffness() const {
     return young * thickness * thickness * thickness / (12 * (1 - poisson * poisson));
   }
 };
 
-// Throws Error(bad_input) that says what is allowed, where a value is out of range or not finite.
+// Throws Error(bad_input) with the allowed range where a value is out of range or not finite.
 void check(const Material& material);
 
 }  // namespace plisse::shell

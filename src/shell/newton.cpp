@@ -49,7 +49,7 @@ class Search {
     note(0, value, gradient, 0, 0);
     int steps_gripped = 0;
     while (true) {
-      // Friction lags behind what it depends on: every few steps it catches up, and at the end it must have.
+      // Friction is lagged: its forces are updated every few steps, and must be up to date at the end.
       if (lags_ && steps_gripped >= 4) {
         grip(value, gradient, false);
         steps_gripped = 0;
@@ -93,7 +93,7 @@ class Search {
       }
     }
     if (lags_) {
-      // What is told is of the last state, not of the forces it was found with.
+      // Reported values use the forces of the last state, not the lagged ones.
       if (steps_gripped > 0) grip(value, gradient, false);
       tell(value, gradient);
       result_.anchors = potential_.anchors(result_.positions);
@@ -115,7 +115,7 @@ class Search {
         "the start has no finite energy{}: positions are too large or too close to an obstacle", infinite);
   }
 
-  // What is held by nothing may leave what it lies on.
+  // Parts that are not held may slide off an obstacle.
   bool runs_away() {
     if (loads_.obstacles.empty() || result_.iterations % 8 != 0 || result_.iterations == 0) return false;
     result_.reason = unsupported(shell_, conditions_, loads_, result_.positions);
@@ -125,9 +125,9 @@ class Search {
     return !result_.reason.empty();
   }
 
-  // Positions are rounded, and a shell's stiffness makes forces of it, which nothing can balance; they must
-  // not keep one that nothing pulls at from being at rest. On a regular mesh rows of the bending's Hessian
-  // sum to some 10 B A |∇λ|⁴.
+  // The rounding of positions times the shell's stiffness gives forces that cannot be balanced; they must not
+  // prevent the convergence of a shell without loads. On a regular mesh rows of the bending's Hessian sum to
+  // some 10 B A |∇λ|⁴.
   void measure(const Shell& shell) {
     const Material& m = shell.material;
     const double bending = shell.bending == Bending::off ? 0 : 10 * m.bending_stiffness();
@@ -151,11 +151,11 @@ class Search {
     return std::max(settings_.tolerance * value.force_scale, rounding_force_);
   }
 
-  // A whole step earns trust in the quadratic model: the exact Hessian next time, and less of a shift.
-  // `fall`: of the energy, over what the model said; `rest`: of the largest force, over what it was.
+  // After a whole step the quadratic model is trusted more: the exact Hessian next time, and a smaller shift.
+  // `fall`: decrease of the energy over the predicted one; `rest`: largest force over its previous value.
   void adapt(double step, double fall, double rest, double gain) {
     if (regular_) {
-      // A shift is a trust region: as large as the model is wrong.
+      // The shift works as a trust region: it grows with the model's error.
       if (step < 0.5 || fall < 0.25) {
         exact_shift_ = std::max(4 * exact_shift_, least_shift_);
       } else if (fall > 0.75) {
@@ -163,8 +163,8 @@ class Search {
       }
       return;
     }
-    // Whole steps without concave parts that get nowhere: beside an equilibrium that is not stable, from
-    // which only those parts lead away.
+    // Whole steps without concave parts gain almost nothing: near an unstable equilibrium, where only the
+    // concave parts lead away.
     regular_ = exact_failed_ && used_shift_ == 0 && step > 0.5 && rest > 0.3 && gain < 1e-4;
     if (regular_) exact_shift_ = 1e-7 * size_;
     exact_ = step > 0.5;
@@ -216,7 +216,7 @@ class Search {
     result_.assembly_s += wall_seconds() - began;
   }
 
-  // −(H + shift)⁻¹ g where that is downhill, else nothing.
+  // −(H + shift)⁻¹ g where this is a descent direction, else nothing.
   VectorXd solved(const VectorXd& gradient, double shift) {
     double began = wall_seconds();
     system_ = hessian_;
@@ -237,8 +237,8 @@ class Search {
     return direction;
   }
 
-  // Newton's direction by the Hessian as it is; by what is left without its concave parts, where it is not
-  // positive definite; shifted where that leads nowhere. Empty: there is none.
+  // Newton's direction with the exact Hessian; without its concave parts where it is not positive definite;
+  // with a shift where that fails too. Empty: there is none.
   VectorXd newton_direction(const VectorXd& gradient) {
     VectorXd direction;
     exact_failed_ = false;
@@ -264,7 +264,7 @@ class Search {
     return direction;
   }
 
-  // By how much the energy falls in a part of a step, says the model.
+  // The decrease of energy that the model predicts for a part of a step.
   double promised(const VectorXd& gradient, const VectorXd& direction, double step) const {
     const double slope = gradient.dot(direction);
     const double shifted = used_shift_ * direction.cwiseAbs2().dot(potential_.areas());
@@ -275,13 +275,14 @@ class Search {
   double line_search(Potential::Value& value, VectorXd& gradient, const VectorXd& direction) {
     const double slope = gradient.dot(direction);
     double step = potential_.safe_step(result_.positions, direction);
-    // No vertex goes farther than half of the whole at once: what is slack has no idea of scale.
+    // No vertex moves farther than half of the shell's size in a step: for slack parts the Newton step has no
+    // natural length.
     const double longest = direction.cwiseAbs().maxCoeff();
     const double extent =
         std::max(rest_extent_,
                  (result_.positions.rowwise().maxCoeff() - result_.positions.rowwise().minCoeff()).norm());
     if (step * longest > 0.5 * extent) step = 0.5 * extent / longest;
-    // Energies are sums of a term a face, whose rounding adds up like a random walk.
+    // Energies are sums of one term per face, whose rounding errors add up like a random walk.
     const double rounding = 1e-16 * (10 + std::sqrt(static_cast<double>(gradient.size()))) * value.summands;
     Positions x;
     VectorXd new_gradient;
@@ -291,7 +292,7 @@ class Search {
       const Potential::Value there = potential_.value(x, &new_gradient);
       if (!std::isfinite(there.energy) || !new_gradient.allFinite()) continue;
       const bool falls = there.energy <= value.energy + 1e-4 * step * slope;
-      // Where the expected fall is lost in rounding the forces decide.
+      // Where the expected decrease is below rounding, the forces decide.
       const bool balances = -step * slope <= 10 * rounding && there.energy <= value.energy + rounding &&
                             new_gradient.norm() < 0.9 * gradient.norm();
       if (!falls && !balances) {
@@ -299,7 +300,7 @@ class Search {
         continue;
       }
       if (there.energy > value.energy - rounding && new_gradient.norm() >= gradient.norm())
-        break;  // going nowhere
+        break;  // no progress
       result_.positions = std::move(x);
       value = there;
       gradient = std::move(new_gradient);
@@ -312,7 +313,7 @@ class Search {
   bool stalled(const Potential::Value& value, const VectorXd& gradient) {
     const double largest = gradient.cwiseAbs().maxCoeff();
     const double share = value.force_scale > 0 ? largest / value.force_scale : 0;
-    // What rounding leaves of forces that cancel; a hundredth of that is all that energies can tell.
+    // The rounding error of forces that cancel; energies cannot resolve more than a hundred times that.
     const bool balanced = largest <= 100 * allowed(value);
     if ((exact_ || regular_) && !balanced) {
       exact_ = regular_ = false;

@@ -78,14 +78,14 @@ struct ObstacleKind {
 };
 const std::vector<ObstacleKind>& obstacle_kinds();
 
-// A body's has no second derivative: contact() has what solvers need.
+// For a Body without second derivative: solvers use contact().
 Distance distance(const Obstacle& obstacle, const Eigen::Vector3d& point);
 
 // The barrier of a body at a point; infinite in it.
 Contact contact(const Obstacle& obstacle, const Eigen::Vector3d& point, double gap, bool curvature);
 
-// The share, at most 1, of a straight way that a point may go without passing through the body: what is left
-// of the way may end in it, which shows, but not beyond it.
+// The share, at most 1, of a straight path that a point may follow without passing through the body: it may
+// end inside, which is noticed, but not beyond.
 double free_way(const Obstacle& obstacle, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace plisse::shell

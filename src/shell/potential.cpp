@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Corners, then the vertices across; where there is none, the corner itself: its rows are 0.
+// Corners, then the vertices across; for a missing one the corner itself, with rows 0.
 std::array<std::uint32_t, 6> stencil(const Topology& topology, std::size_t face) {
   std::array<std::uint32_t, 6> vertices{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -52,8 +52,7 @@ class Potential {
   const Eigen::SparseMatrix<double>& hessian(const Positions& x, Curvature curvature);
 
   // Terms that lag look up what they go by from here on (friction: what obstacles push at): the energy
-  // changes by it. A vertex that is newly in contact grips where it is, those of `first` where Loads::anchors
-  // says.
+  // changes by it. The anchor of a new contact is the vertex' position; with `first` that of Loads::anchors.
   bool lags() const;
   void look_up(const Positions& x, bool first);
   // Where vertices stick from here on, to each obstacle (Loads::anchors): what has slipped drags its anchor

@@ -1,4 +1,4 @@
-// The strain-free shape of a shell: what each triangle is when nothing pulls at it.
+// The strain-free shape of a shell: the shape of each triangle without forces.
 #pragma once
 
 #include <Eigen/Core>

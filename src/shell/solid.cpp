@@ -16,7 +16,7 @@ Distance round_body(const Vector3d& point, const Vector3d& nearest, double radiu
     d.first = away / length;
     d.second = (curved - d.first * d.first.transpose()) / length;
   } else {
-    d.first = Vector3d::UnitY();  // in the core itself: any way out
+    d.first = Vector3d::UnitY();  // on the core itself: any direction
   }
   return d;
 }

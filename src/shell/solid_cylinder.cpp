@@ -1,4 +1,4 @@
-// A cylinder with flat ends: points are beside its mantle, over an end, or off the rim where both meet.
+// A cylinder with flat ends: nearest points are on its side, on an end, or on the edge between them.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@ Distance Plane::distance(const Vector3d& at) const {
 }
 
 double Plane::thickness() const {
-  return std::numeric_limits<double>::infinity();  // its far side is inside for ever
+  return std::numeric_limits<double>::infinity();  // it has no far side
 }
 
 Vector3d Plane::carried_along(const Plane& after, const Vector3d& at) const {

@@ -39,7 +39,7 @@ double enclosed_volume(const std::vector<Face>& faces, const Positions& position
 std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& conditions) {
   std::vector<OpenSide> sides(topology.component_count);
   Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, topology.component_count), count = sum;
-  // The apex: amid what is held, but in the planes in which edges may slide.
+  // The apex: the mean of the held vertices, moved into the planes in which edges may slide.
   std::vector<std::array<bool, 3>> bound(topology.component_count, {false, false, false});
   const auto clamped = [&](std::uint32_t v) { return conditions.held.col(v).all(); };
   for (const int pass : {0, 1})
@@ -81,9 +81,9 @@ std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& con
 namespace {
 
 struct Pull {
-  Vector3d force = Vector3d::Zero();             // N, along axes in which nothing is held
-  Eigen::Array3d free = Eigen::Array3d::Ones();  // 1: nothing is held along this axis
-  std::string what;                              // pulls; empty: nothing does
+  Vector3d force = Vector3d::Zero();             // N, along axes without held vertices
+  Eigen::Array3d free = Eigen::Array3d::Ones();  // 1: no vertex is held along this axis
+  std::string what;                              // the load; empty: none
 };
 
 Pull pull_on(const Shell& shell, const Conditions& conditions, const Loads& loads, std::uint32_t part) {
@@ -100,15 +100,15 @@ Pull pull_on(const Shell& shell, const Conditions& conditions, const Loads& load
     size += loads.forces.col(v).norm();
   }
   pull.force = pull.free * (weight + sum).array();
-  // 1e-9: what cancels does so up to rounding of as many summands.
+  // 1e-9: forces that cancel do so up to the rounding of this many summands.
   if (pull.force.norm() <= 1e-9 * (weight.norm() + size)) return pull;
   pull.what = (pull.free * weight.array()).matrix().norm() > 0 ? "gravity pulls at it"
                                                                : "forces pull at it that do not cancel";
   return pull;
 }
 
-// Whether a point that goes straight on comes as near to a body as it is pushed from. All but triangles' are
-// convex: a way that leads off leads off for good.
+// Whether a point that moves straight on comes within the gap of a body. All bodies except triangle meshes
+// are convex: a path that leads away does not come back.
 bool lands(const Obstacle& obstacle, Vector3d point, const Vector3d& way, double gap) {
   if (const auto* body = std::get_if<Body>(&obstacle)) {
     const auto& box = (*body)->tree().box();
@@ -165,7 +165,7 @@ double longest_slide(const Shell& shell, const Conditions& conditions, const Loa
       sum += to.col(v) - from.col(v);
       ++count;
     }
-    // Down the pull is no slide but a fall, whose end `unsupported` knows.
+    // Motion along the load is a fall, not a slide; `unsupported` checks its end.
     Vector3d way = (pull.free * sum.array()).matrix() / count;
     const Vector3d down = pull.force.normalized();
     way -= way.dot(down) * down;

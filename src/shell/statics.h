@@ -1,4 +1,4 @@
-// A shell in static equilibrium: what it is made of, what holds it and what pulls at it.
+// A shell in static equilibrium: its material, boundary conditions and loads.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,9 +29,9 @@ struct Shell {
 // Where a vertex is held, by coordinate: clamps hold all three, rollers and symmetry planes some. `at` is
 // read where `held` is set.
 struct Conditions {
-  // A plane across an axis, of which the shell is one side: boundary edges whose ends are both held in it go
-  // on as their own mirror image, so mid-edge normals lie in it. (The quadratic bending takes them for free
-  // edges, and stretching needs no more than the hold.)
+  // A symmetry plane normal to an axis, with the shell on one side: across boundary edges with both ends held
+  // in it, the shell continues as its mirror image, so mid-edge normals are in the plane. (The quadratic
+  // bending treats them as free edges, and stretching only needs the held coordinate.)
   struct Mirror {
     int axis = 0;
     double at = 0;  // m
@@ -50,31 +50,31 @@ void add_edge_forces(Loads& loads, const Topology& topology, const std::vector<R
                      const std::vector<std::array<std::uint32_t, 2>>& edges,
                      const Eigen::Vector3d& per_length);
 
-// The volume that pressure works on, of a part that is open, is that of cones from its faces to an apex:
-// right where nothing moves that the open side's own cones would push at. So the boundary's edges must be
-// held at both ends, either altogether or in the one plane across an axis in which they may slide (a symmetry
-// plane), which then goes through the apex.
+// The volume for pressure is that of the cones from the faces to an apex. For an open part this gives the
+// right forces only if the cone faces of the open side do not move. So the boundary's edges must be held at
+// both ends, either completely or in one plane normal to an axis in which they may slide (a symmetry plane),
+// and the apex is in that plane.
 struct OpenSide {
   bool open = false;
   Eigen::Vector3d apex = Eigen::Vector3d::Zero();  // m
-  std::uint32_t loose = none;  // a vertex of the boundary that is not held so; none: there is none
+  std::uint32_t loose = none;  // a vertex of the boundary that is not held in this way, or none
 };
 std::vector<OpenSide> open_sides(const Topology& topology, const Conditions& conditions);  // of each part
 
-// Parts that are pulled at along an axis in which nothing holds them and that are not on their way to an
-// obstacle: which, and what pulls; empty: there is none. (Parts that are free to turn only have an
-// equilibrium: dead loads have a least energy among all turns.)
+// The parts with a load along an axis in which they are not held, and without an obstacle that would stop
+// them: their names and loads; empty: there are none. (Parts that are only free to rotate have an
+// equilibrium: under dead loads one rotation has the least energy.)
 std::string unsupported(const Shell& shell, const Conditions& conditions, const Loads& loads,
                         const Positions& positions);
-// Of parts that are so pulled at: the farthest that the mean of one has gone in those axes, across the pull,
-// m.
+// For parts with such a load: the largest displacement of a part's mean in those axes, perpendicular to the
+// load, m.
 double longest_slide(const Shell& shell, const Conditions& conditions, const Loads& loads,
                      const Positions& from, const Positions& to);
 
 // Throws Error(bad_input), all problems at once: counts that do not agree, values that are not finite, a part
-// of the shell that is pulled at along an axis, held by nothing in it and not above an obstacle that it would
-// land on (its number, a vertex of it and what pulls), pressure on a part with a loose boundary, an obstacle
-// that a held vertex lies in.
+// with a load along an axis in which it is not held and no obstacle would stop it (its number, one of its
+// vertices and the load), pressure on a part whose boundary is not held, an obstacle that a held vertex lies
+// in.
 void check(const Shell& shell, const Conditions& conditions, const Loads& loads, const Positions& start);
 
 // Volume under the faces, the sum of their cones to the origin, m³.

@@ -17,15 +17,15 @@ enum class Stretching { stvk, tension_field };
 struct StretchingLaw {
   Material material;
   Stretching model = Stretching::tension_field;
-  // η: ψ = (1 − η) ψ_tension_field + η ψ_stvk, so that what is slack keeps a little of its stiffness. 0 … 1;
-  // 0: none. Spreads strain that tension field theory leaves undetermined.
+  // η: ψ = (1 − η) ψ_tension_field + η ψ_stvk, so that slack cloth keeps a little of its stiffness. 0 … 1; 0:
+  // none. Distributes strain that tension field theory leaves undetermined.
   double residual = 0;
 };
 
-// What tension field theory calls a strain: whether it carries no stress, one, or two.
+// The states of tension field theory: zero, one or two principal stresses.
 enum class TensionState { slack, wrinkled, taut };
 
-// The branches meet where the stress of the relaxed law is continuous: at λ₁ = 0 and λ₂ = −νλ₁.
+// The state changes where the stress of the relaxed law is continuous: at λ₁ = 0 and λ₂ = −νλ₁.
 TensionState tension_state(const Material& material, double lambda1, double lambda2);
 
 // ψ and its derivatives by the two eigenvalues, J/m².
@@ -40,8 +40,8 @@ StretchingDensity stretching_density(const StretchingLaw& law, double lambda1, d
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-// exact: the second derivative. positive: without the negative curvature that compressed triangles have in
-// space; tension field alone has none.
+// exact: the second derivative. positive: without the negative eigenvalues that compressed triangles have;
+// tension field alone has none.
 enum class Curvature { exact, positive };
 
 // Energy of a triangle, J; its gradient and Hessian by the corners x₀ y₀ z₀ x₁ … are written where asked for.

@@ -18,7 +18,7 @@ class QuadraticBendingTerm : public ShellTerm {
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::VectorXd u = x.row(axis).transpose().array() - origin_[axis], force = form_ * u;
       energy.energy += 0.5 * u.dot(force);
-      // Almost all of its summands cancel; what rounding leaves of them does not.
+      // Almost all of its summands cancel, but their rounding errors do not.
       energy.summands += 0.5 * u.cwiseAbs().dot(sizes_ * u.cwiseAbs());
       if (!forces) continue;
       forces->force.row(axis) += force.transpose();

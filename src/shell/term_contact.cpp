@@ -1,6 +1,6 @@
 // Contact with obstacles and friction on them: M. Li et al., "Incremental Potential Contact", ACM TOG 2020,
-// eq. 6 and section 5 (barrier.h, friction.h), a vertex each, weighted with its rest area. Friction goes by
-// forces of contact that were looked up earlier, so both are one term.
+// eq. 6 and section 5 (barrier.h, friction.h), a vertex each, weighted with its rest area. Friction uses
+// earlier forces of contact, so both are one term.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// What a barrier must be able to carry: the pressures of the loads and of the sheet's own weight.
+// The pressure that a barrier must carry: that of the loads and of the sheet's own weight.
 double contact_stiffness(const Shell& shell, const Loads& loads) {
   if (loads.contact_stiffness > 0) return loads.contact_stiffness;
   double area = 0, force = 0;
@@ -23,8 +23,7 @@ double contact_stiffness(const Shell& shell, const Loads& loads) {
   const Material& m = shell.material;
   const double pressure = std::abs(loads.pressure) + m.density * m.thickness * loads.gravity.norm() +
                           force / area + m.young * m.thickness * 1e-6 / std::sqrt(area);
-  // |b'| is about 1.2 gap at half of the gap: there it carries some ten times what the loads ask for on
-  // average.
+  // |b'| is about 1.2 gap at half of the gap: there it carries about ten times the average load.
   return 10 * pressure / (1.2 * loads.gap);
 }
 
@@ -61,7 +60,7 @@ class ContactTerm : public VertexTerm {
 
   bool lags() const override { return loads_.friction > 0; }
 
-  // A vertex that is newly in contact grips where it is, those of `first` where Loads::anchors says.
+  // The anchor of a new contact is the vertex' position; with `first` that of Loads::anchors.
   void look_up(const Positions& x, bool first) override {
     std::vector<Grip> grips;
     auto old = grips_.begin();
@@ -94,7 +93,7 @@ class ContactTerm : public VertexTerm {
     return work;
   }
 
-  // What has slipped drags its anchor along; what touches nothing sticks to nothing.
+  // The anchor follows a vertex that has slipped; vertices without contact have no anchor.
   std::vector<Positions> anchors(const Positions& x) const override {
     std::vector<Positions> anchors(
         loads_.obstacles.size(), Positions::Constant(3, x.cols(), std::numeric_limits<double>::quiet_NaN()));

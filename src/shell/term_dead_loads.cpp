@@ -1,4 +1,4 @@
-// Forces that stay what they are wherever the shell goes: gravity on density × thickness × rest area (lumped:
+// Forces that do not depend on the shell's shape: gravity on density × thickness × rest area (lumped:
 // a third of each face's to each corner) and nodal forces. −F·(x − origin), a vertex each.
 #include "shell/energy_terms.h"
 

@@ -1,5 +1,5 @@
-// Pressure along the faces' normals: −p V, V the volume of the cones from an apex to the faces. Where a part
-// is closed that is its volume, from whatever apex; where it is open see OpenSide.
+// Pressure along the faces' normals: −p V, V the volume of the cones from an apex to the faces. For a closed
+// part this is its volume for any apex; for an open one see OpenSide.
 #include <Eigen/Geometry>
 #include <vector>
 
@@ -30,8 +30,8 @@ class PressureTerm : public ShellTerm {
 
   std::string_view name() const override { return "pressure"; }
 
-  // Corners get a third of their faces' load each; what the cones' open sides add along the boundary is no
-  // force of the sheet, so it counts as none in `size`.
+  // Corners get a third of their faces' load each; the contribution of the cones' open sides along the
+  // boundary is not a force of the sheet, so it is left out of `size`.
   void add(const Positions& x, EnergySum& energy, ForceSum* forces) const override {
     double volume = 0;
     for (std::size_t f = 0; f < topology_.faces.size(); ++f) {
@@ -70,7 +70,7 @@ class PressureTerm : public ShellTerm {
   }
 
  private:
-  // Anywhere if the part is closed, else the place that check() asks for.
+  // Any point if the part is closed, else the one that OpenSide defines.
   Vector3d apex(std::uint32_t part, const Positions& x) const {
     return open_sides_[part].open ? open_sides_[part].apex : Vector3d(x.col(some_vertex_[part]));
   }

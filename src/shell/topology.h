@@ -1,4 +1,4 @@
-// Which edges and flaps the triangles of a shell have.
+// Edges and flaps (opposite vertices) of the triangles of a shell.
 #pragma once
 
 #include <array>
@@ -31,9 +31,9 @@ struct Topology {
   std::uint32_t component_count = 0;
 };
 
-// Throws Error(bad_input), all problems at once (the first few of them by number): a face that names a vertex
-// which is not there or one twice; an edge with more than two faces; two faces that run along an edge the
-// same way, so that the shell has no outside.
+// Throws Error(bad_input), all problems at once (the first few of them by number): a face with a missing
+// vertex or with one vertex twice; an edge with more than two faces; two faces with the same direction along
+// an edge, so that the shell is not orientable.
 Topology build_topology(std::vector<Face> faces, std::size_t vertex_count);
 
 }  // namespace plisse::shell

@@ -119,7 +119,7 @@ Contact TriangleBody::contact(const Vector3d& point, double gap, bool curvature)
   if (tree_.box().exteriorDistance(point) >= gap) return contact;
   TriangleTree::Nearest nearest = tree_.nearest(point, gap);
   const bool near = nearest.triangle != TriangleTree::Nearest::nothing;
-  if (!near) nearest = tree_.nearest(point);  // deep inside, or well off
+  if (!near) nearest = tree_.nearest(point);  // deep inside, or far away
   if (!(nearest.distance > 0) || (point - nearest.point).dot(normal_at(nearest)) < 0) {
     contact.value = std::numeric_limits<double>::infinity();
     return contact;

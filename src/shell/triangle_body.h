@@ -1,5 +1,5 @@
-// A solid bounded by triangles, such as a person's body: signed distance, a barrier round it, and what a
-// straight way through space meets.
+// A solid bounded by triangles, such as a person's body: signed distance, a barrier, and intersections with
+// straight paths.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +13,9 @@ namespace plisse::shell {
 
 class TriangleBody {
  public:
-  // Closed: every edge has two triangles. Wound either way, but alike; the larger side is outside. Throws
-  // Error(bad_input), with `name` in front, where it is open (an edge is named), has edges of more than two
-  // triangles, is wound in two ways, or has no inside.
+  // Closed: every edge has two triangles. All triangles must have the same orientation, either of the two;
+  // the larger side is outside. Throws Error(bad_input), with `name` in front, where it is open (an edge is
+  // named), has edges of more than two triangles, mixed orientations, or no interior.
   TriangleBody(Eigen::Matrix3Xd points, std::vector<TriangleTree::Triangle> triangles,
                const std::string& name);
 
@@ -23,13 +23,14 @@ class TriangleBody {
   // vertices (J. A. Bærentzen and H. Aanæs, TVCG 2005), with which it is right everywhere.
   Distance distance(const Eigen::Vector3d& point) const;
 
-  // What keeps a point out, smooth where distance has kinks (above hollows and on ridges):
+  // The barrier of the body, which is smooth also where the distance is not (above concave and convex edges):
   //   Σ_faces b(d) − Σ_edges b(d) + Σ_vertices b(d),
-  // d to each of them, b of barrier.h. On flat and convex parts all but the nearest cancel, in hollows both
-  // sides push (M. Li et al., Convergent Incremental Potential Contact, 2023). Infinite inside.
+  // d to each of them, b of barrier.h. On flat and convex parts all but the nearest element cancel; in
+  // concave places both sides push (M. Li et al., Convergent Incremental Potential Contact, 2023). Infinite
+  // inside.
   Contact contact(const Eigen::Vector3d& point, double gap, bool curvature) const;
 
-  // The share, at most 1, of a straight way that leads through no triangle.
+  // The share, at most 1, of a straight path that does not pass through a triangle.
   double free_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   const TriangleTree& tree() const { return tree_; }

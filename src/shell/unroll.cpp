@@ -110,7 +110,7 @@ class Layout {
   const Topology& topology_;
   const std::vector<RestFace>& rest_;
   std::vector<std::optional<Corners>> places_;
-  std::vector<std::vector<Vector2d>> at_vertex_;  // of the piece that is being laid
+  std::vector<std::vector<Vector2d>> at_vertex_;  // of the current piece
 };
 
 }  // namespace
