@@ -214,8 +214,8 @@ std::string table(const ordered_json& info) {
       high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
       info["units_m"].get<double>(), info["up"].get<std::string>());
 
-  text += "\n" + padded("meshes", name_width(info["meshes"]) + 2) +
-          "  vertices    welded  triangles  bones  infl.  morphs  uv   material\n";
+  text += fmt::format("\n{}", padded("meshes", name_width(info["meshes"]) + 2));
+  text += "  vertices    welded  triangles  bones  infl.  morphs  uv   material\n";
   for (const ordered_json& mesh : info["meshes"]) {
     const std::string welded =
         mesh["welded"].is_null() ? "–" : std::to_string(mesh["welded"].get<std::size_t>());

@@ -38,11 +38,11 @@ std::vector<Distribution> device_seconds(const std::vector<Work>& works, const T
     return 1e-3 * timer.collect()["work"] / repeats[i];
   };
   for (std::size_t i = 0; i < works.size(); ++i) {
-    scene::sample(i);
-    repeats[i] = std::clamp(static_cast<int>(turns.seconds / std::max(scene::sample(i), 1e-7)), 1, 1000);
+    sample(i);
+    repeats[i] = std::clamp(static_cast<int>(turns.seconds / std::max(sample(i), 1e-7)), 1, 1000);
   }
   for (int turn = 0; turn < turns.samples; ++turn)
-    for (std::size_t i = 0; i < works.size(); ++i) seconds[i].push_back(scene::sample(i));
+    for (std::size_t i = 0; i < works.size(); ++i) seconds[i].push_back(sample(i));
   std::vector<Distribution> result;
   for (auto& values : seconds) result.push_back(distribution(std::move(values)));
   return result;
