@@ -73,7 +73,7 @@ FaceEnergy::FaceEnergy(const FaceForms& forms, const Model& model) : gradient_(f
   constant_ -= 4 / h * relaxed;
   if (!model.v1) {
     curvature_ = 2 * squared_norm(forms.second_form, alpha, beta);
-  } else if (principal.compression < 0) {  // else w means nothing, and a stays near 0 (section 4.2)
+  } else if (principal.compression < 0) {  // otherwise w has no meaning, and a stays near 0 (section 4.2)
     const double bent = principal.crest.dot(forms.second_form * principal.crest);
     curvature_ = model.material.young * bent * bent;
   }

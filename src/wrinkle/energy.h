@@ -14,19 +14,20 @@ namespace plisse::wrinkle {
 
 struct Model {
   shell::Material material;
-  bool v1 = true;  // without: waves cannot lean with the base surface's curvature (section 3.6)
+  bool v1 = true;  // without: no tangential displacement due to the base surface's curvature (section 3.6)
   bool v2 = true;  // without: purely normal displacement
-  // Multiplies W²; 1.44 makes it the one of the authors' program, for comparisons with it.
+  // Multiplies W²; 1.44 gives that of the authors' program, for comparisons.
   double curvature_factor = 1;
-  // W¹ as (21) has it also where both principal strains are compressive. Without, strain along the crests
-  // counts as 0 there: tension field theory has such cloth slack, and what shortens it along the crests is
-  // nothing that these waves could take up but by amplitudes that zigzag from vertex to vertex.
+  // Uses W¹ of (21) also where both principal strains are compressive. Without, the strain along the crests
+  // counts as 0 there: such cloth is slack in tension field theory, and these waves could take up compression
+  // along their crests only by amplitudes that alternate from vertex to vertex.
   bool crest_compression = false;
-  // Without: ω has to close on wrinkle-free faces as well (section 5.1 and fig. 5 say why it must not).
+  // Without: ω must be closed on wrinkle-free faces as well (section 5.1 and fig. 5 show why it should not
+  // be).
   bool relaxed_integrability = true;
 };
 
-// S of W¹: the strain, but for what the model says of compression along the crests.
+// S of W¹: the strain, except for compression along the crests (Model::crest_compression).
 Eigen::Matrix2d wrinkled_strain(const FaceForms& forms, const Model& model);
 
 // Local variables: a₀, a₁, a₂ (metres), then dφ's two components (radians per metre, in the face's frame).
@@ -37,13 +38,14 @@ class FaceEnergy {
  public:
   FaceEnergy(const FaceForms& forms, const Model& model);
 
-  // Joules above what tension field theory leaves of the face's energy (appendix B), which no wrinkle can go
-  // below: under tension that is most of it, and differences between fields would drown in its rounding.
+  // Joules above the face's relaxed energy of tension field theory (appendix B), the lower bound for any
+  // wrinkles. Under tension the relaxed energy is most of the total, and its rounding would hide differences
+  // between fields.
   double value(const LocalVector& x) const;
   double gradient(const LocalVector& x, LocalVector& first) const;
   double hessian(const LocalVector& x, LocalVector& first, LocalMatrix& second) const;
 
-  // That remainder, joules; the sum of both is the face's part of (27).
+  // The relaxed energy, joules; the sum of both is the face's part of (27).
   double relaxed() const { return relaxed_; }
 
  private:

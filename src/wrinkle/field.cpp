@@ -28,7 +28,7 @@ Waves flat_waves(const Problem& problem) {
           zeros(problem.complex().periods)};
 }
 
-// Vertices of live faces that have no amplitude at any corner.
+// Vertices of live faces with amplitude 0 at all corners.
 std::vector<bool> dead_vertices(const Problem& problem, const Waves& waves) {
   std::vector<bool> dead(problem.pinned().size(), false);
   for (std::size_t f = 0; f < problem.live().size(); ++f) {
@@ -54,7 +54,7 @@ class Search {
         whole_(std::make_shared<const Problem>(topology, forms, model, wrinkle_free, clamped)),
         problem_(whole_) {
     clamped_.resize(topology.vertex_count, false);
-    // Which vertices would have waves if each face could do as it likes.
+    // The vertices that would have waves if each face were independent.
     const auto local = local_waves(forms, topology, problem_->live(), problem_->pinned(), model);
     VectorXd wish = VectorXd::Zero(static_cast<Index>(topology.vertex_count));
     for (std::size_t f = 0; f < local.size(); ++f) {
@@ -83,7 +83,7 @@ class Search {
   }
 
   void release() {
-    constexpr int rounds = 4;  // each is a solve or a few; most fields need one or two
+    constexpr int rounds = 4;  // of one or a few solves each; most fields need one or two
     for (int round = 0; round < rounds && !flat(best_.waves); ++round) {
       const std::vector<bool> dead = dead_vertices(*problem_, best_.waves);
       if (revived(dead)) continue;
@@ -102,10 +102,10 @@ class Search {
   }
 
  private:
-  // Less by this part of what is above the relaxed energy counts as less: a release must be worth it.
+  // A release must lower the energy by at least this share of the energy above the relaxed one.
   static constexpr double worth = 1e-5;
 
-  // What a try shows in that many steps it shows at all.
+  // A try that shows no success in this many steps is given up.
   SolveOptions brief() const {
     SolveOptions result = options_.solve;
     result.max_iterations = std::min(result.max_iterations, 60);
@@ -127,7 +127,7 @@ class Search {
     return a.energy < best_.energy - worth * (best_.energy - problem_->relaxed_energy());
   }
 
-  // Patches have nothing to do with each other: each may take the start that suits it, or stay flat.
+  // Patches are independent: each takes its best start, or stays flat.
   Solution lowest_by_patch(std::vector<Solution> ends) {
     Solution none;
     none.waves = flat_waves(*problem_);
@@ -158,7 +158,7 @@ class Search {
     return run(*problem_, best.waves, options_.solve);
   }
 
-  // Waves for dead vertices that want them, without any release.
+  // Waves for vertices with a = 0 that should have some, without a release.
   bool revived(const std::vector<bool>& dead) {
     bool any = false;
     for (std::size_t v = 0; v < dead.size(); ++v) any = any || (dead[v] && wants_[v]);
@@ -169,11 +169,11 @@ class Search {
     return true;
   }
 
-  // One face released at every vertex round which waves would turn: on a closed surface, or on a disk whose
-  // waves are rays, they could not even begin to close otherwise.
+  // Releases one face at every vertex around which the waves turn: otherwise ω could not be closed, for
+  // example on a closed surface, or on a disk with radial waves.
   bool opened() {
     const std::vector<int> index = double_index(forms_, whole_->topology(), whole_->live());
-    std::vector<std::uint32_t> calmest(index.size(), shell::none);  // the least compressed face round each
+    std::vector<std::uint32_t> calmest(index.size(), shell::none);  // the least compressed face around each
     for (std::uint32_t f = 0; f < forms_.size(); ++f) {
       if (!whole_->live()[f]) continue;
       for (const std::uint32_t v : whole_->topology().faces[f]) {
@@ -214,7 +214,7 @@ class Search {
                  released);
   }
 
-  // More released: what is dead.
+  // Releases faces with a = 0.
   bool widened(const std::vector<bool>& dead) {
     if (std::find(dead.begin(), dead.end(), true) == dead.end()) return false;
     std::vector<bool> all = released_;
@@ -222,7 +222,7 @@ class Search {
     return take(all);
   }
 
-  // Less released: what wants waves and lies beside some.
+  // Makes released faces live again that should have waves and are beside some.
   bool won_back() {
     std::vector<bool> rest = released_;
     for (const shell::Face& t : whole_->topology().faces) {
@@ -240,14 +240,14 @@ class Search {
   std::vector<bool> clamped_;
   const FieldOptions& options_;
   std::vector<bool> released_, wants_;              // one a vertex
-  std::shared_ptr<const Problem> whole_, problem_;  // nothing released; as released now
+  std::shared_ptr<const Problem> whole_, problem_;  // without released faces; with the current ones
   Solution best_;
   std::vector<SolveStep> trace_;
   int iterations_ = 0;
   double begin_ = wall_seconds();
 };
 
-// A state that nothing minimised.
+// A state that was not minimised.
 Solution unsolved(const Problem& problem, Waves waves) {
   Solution solution;
   VectorXd first;

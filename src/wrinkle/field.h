@@ -19,7 +19,7 @@ struct FieldOptions {
   bool all_starts = false;  // also from ½, 1/√2, √2 and 2 times that; patch by patch the lowest is taken
 };
 
-// Where the solver came to from a start.
+// The result of the solver from one start.
 struct FieldStart {
   double frequency = 1;
   double start_energy = 0, energy = 0;  // J, as Solution's
@@ -28,11 +28,11 @@ struct FieldStart {
 };
 
 struct Field {
-  Solution real;                             // periods of any size: what the energy asks for
-  Solution whole;                            // periods multiples of 2π: what a surface can show
+  Solution real;                             // real periods: the minimum of the energy
+  Solution whole;                            // periods that are multiples of 2π, as a surface must have
   Eigen::VectorXd one_form;                  // ω, radians, one an edge
   std::vector<std::array<double, 3>> phase;  // φ, radians, one a corner of every face
-  std::vector<bool> released;                // faces that stopped having to close because a = 0 on them
+  std::vector<bool> released;                // faces on which ω need not be closed because a = 0 there
   std::vector<FieldStart> starts;            // before any release
   std::vector<SolveStep> trace;              // over all solves with real periods, the lowest energy so far
   double phase_residual = 0, waves = 0;      // see periods.h; waves = count.waves
@@ -40,10 +40,10 @@ struct Field {
   double solve_s = 0, phase_s = 0;  // seconds
 };
 
-// Faces whose corners all come out without amplitude are released, as section 5.1 would have it, if that
-// lowers the energy; what is compressed of them is won back, as long as that lowers it again. Vertices round
-// which waves turn (singularities.h) have a face released before any is dead. Dead faces that want waves are
-// given some, too: a = 0 is stationary whatever the phase.
+// Faces whose corners all have amplitude 0 in the result are released, as in section 5.1, if that lowers the
+// energy; compressed ones among them are made live again as long as that lowers it further. At vertices
+// around which the waves turn (singularities.h) a face is released from the start. Faces with a = 0 that are
+// compressed enough for waves also get a start with waves, since a = 0 is stationary for any phase.
 Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>& forms, const Model& model,
                   const std::vector<bool>& wrinkle_free, const std::vector<bool>& clamped = {},
                   const FieldOptions& options = {});

@@ -83,7 +83,7 @@ Waves vandeparre_waves(const Problem& problem, const std::vector<bool>& clamped)
     const PrincipalStrain principal = principal_strain(problem.forms()[f]);
     const double wavelength = vandeparre_wavelength(problem.model().material, mean, principal.tension,
                                                     std::max(local[f].compression, 0.0));
-    // Waves that the law has none of keep the length of their patch (local_waves.h).
+    // Where the law gives no waves, their length is that of their patch (local_waves.h).
     if (std::isfinite(wavelength)) local[f].gradient = 2 * std::numbers::pi / wavelength * principal.wave;
   }
   return waves_of(problem, std::move(local));

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Where a crest goes from a face's centre: so far (metres at rest) until it leaves the live faces, and
-// whether amplitudes are 0 there.
+// A crest from a face's centre: its length (metres at rest) until it leaves the live faces, and whether
+// amplitudes are 0 there.
 struct CrestEnd {
   double length = 0;
   bool pinned = false;
@@ -31,7 +31,7 @@ class CrestLines {
     Eigen::Vector3d at = Eigen::Vector3d::Constant(1.0 / 3);  // barycentric
     Vector2d direction = sign * crest_[face];
     CrestEnd end;
-    // A line that circles would do so for ever.
+    // A limit for closed lines.
     const int most = 20 + 4 * static_cast<int>(std::sqrt(static_cast<double>(forms_.size())));
     for (int step = 0; step < most; ++step) {
       const Eigen::Vector3d rate = forms_[face].rest.gradients.transpose() * direction;

@@ -1,4 +1,4 @@
-// Connected sets of faces, and the shortest ways through one along its edges.
+// Connected sets of faces, and shortest paths along their edges.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,8 @@
 
 namespace plisse::wrinkle {
 
-// Faces that hang together by edges; one flag a face says which count. In the order of their first faces.
+// Sets of faces that are connected by edges; one flag per face says which faces are used. In the order of
+// their first faces.
 std::vector<std::vector<std::uint32_t>> patches(const shell::Topology& topology,
                                                 const std::vector<bool>& faces);
 
@@ -25,13 +26,13 @@ class PatchGraph {
     std::array<std::uint32_t, 2> vertex;  // of the patch, in the topology's order
     std::uint32_t edge;                   // of the topology
     double length;                        // metres at rest
-    bool rim;                             // one face of the patch, not two
+    bool rim;                             // a boundary edge of the patch
   };
-  // Shortest ways from one vertex.
+  // Shortest paths from one vertex.
   struct Walk {
     std::vector<double> distance;    // metres
-    std::vector<double> turns;       // ∫ω/2π along the way
-    std::vector<std::uint32_t> via;  // of `edges`, the last one of the way; shell::none at the start
+    std::vector<double> turns;       // ∫ω/2π along the path
+    std::vector<std::uint32_t> via;  // of `edges`, the last one of the path; shell::none at the start
   };
 
   PatchGraph(const shell::Topology& topology, const std::vector<FaceForms>& forms,
@@ -41,7 +42,7 @@ class PatchGraph {
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }  // of the topology
   // `one_form`: radians, one an edge of the topology.
   Walk from(std::uint32_t vertex, const Eigen::VectorXd& one_form) const;
-  // The longest of the shortest ways, as two sweeps find it: exact on trees, hardly short elsewhere. Metres.
+  // The longest of the shortest paths, by two sweeps: exact on trees, slightly too short elsewhere. Metres.
   double diameter() const;
 
  private:

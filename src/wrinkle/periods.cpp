@@ -48,7 +48,7 @@ Reduced reduced_hessian(const Problem& problem, const VectorXd& x) {
 // Integers n near y with (n − y)ᵀ metric (n − y) small.
 VectorXd nearest_integers(MatrixXd metric, const VectorXd& y) {
   const Index count = y.size();
-  // A period that costs nothing (all waves round it have amplitude 0) is rounded by itself.
+  // A period without influence on the energy (all waves along it have amplitude 0) is rounded separately.
   const double size = metric.diagonal().cwiseAbs().maxCoeff();
   metric.diagonal().array() += size > 0 ? 1e-9 * size : 1;
   const Eigen::LLT<MatrixXd> cholesky(metric);

@@ -11,7 +11,7 @@ namespace plisse::wrinkle {
 
 // The state with every period a multiple of 2π that costs the least energy to second order: integer least
 // squares in the metric of the Hessian, reduced to the periods, by Babai's nearest plane and then single
-// steps; the other unknowns follow to first order. A good start for a solve with fixed periods.
+// steps; the other unknowns change to first order. A good start for a solve with fixed periods.
 Waves with_whole_periods(const Problem& problem, const Waves& waves);
 
 // √(Σ∫a²|dφ − ω|² / Σ∫a²|ω|²) of two states' one-forms, amplitudes of the first; 0 where nothing wrinkles.

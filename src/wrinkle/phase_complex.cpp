@@ -6,7 +6,7 @@
 namespace plisse::wrinkle {
 namespace {
 
-// Sets that grow together.
+// Disjoint sets with union.
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -14,7 +14,7 @@ class Groups {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // Whether they were apart.
+  // Returns whether they were different sets.
   bool join(std::size_t a, std::size_t b) {
     const std::size_t x = find(a), y = find(b);
     parent_[x] = y;
@@ -73,8 +73,9 @@ void number_vertices(PhaseComplex& complex, const shell::Topology& topology,
   complex.vertices = number.size();
 }
 
-// Collapses each component of live faces, from an edge of one face inward (one face of a closed component
-// stays: the others close it). Order of the faces, and the side that each goes through.
+// Collapses each component of live faces, beginning at an edge of one face (one face of a closed component
+// remains; ω is closed on it because it is on the others). Returns the order of the faces and the side
+// through which each collapses.
 struct Collapse {
   std::vector<std::uint32_t> faces;
   std::vector<std::uint32_t> through;  // edges
@@ -150,7 +151,7 @@ PhaseComplex::PhaseComplex(const shell::Topology& topology, std::vector<bool> li
   periods = generators.size();
 
   // γ_k spreads from the graph over the faces in reverse: all but one edge of a face are known by then.
-  // Sparse: only faces that a non-zero edge has reached are looked at.
+  // Sparse: only faces with a non-zero edge are visited.
   std::vector<std::size_t> place(topology.faces.size(), SIZE_MAX);
   for (std::size_t i = 0; i < order.faces.size(); ++i) place[order.faces[i]] = i;
   for (std::uint32_t k = 0; k < generators.size(); ++k) {

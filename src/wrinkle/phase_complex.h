@@ -2,9 +2,10 @@
 // solver needs no curl constraints (section 5.2's (38) holds identically).
 //
 // ω = dφ + Σ τ_k γ_k: φ is one number a phase vertex, γ_k integer one-forms that are closed on the live
-// faces, one for every generator of their first homology, and τ_k the period round it (radians). They come
-// from collapsing the live faces, each through one of its edges, onto a graph; the loops of the graph are the
-// generators, and γ_k is the one-form with 1 on the k-th edge off a spanning forest of the graph.
+// faces, one for every generator of their first homology, and τ_k the period round it (radians). They are
+// found by collapsing the live faces, each through one of its edges, onto a graph. The loops of the graph are
+// the generators, and γ_k is the one-form with 1 on the k-th edge that is not in a spanning forest of the
+// graph.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,10 +18,10 @@ namespace plisse::wrinkle {
 struct PhaseComplex {
   struct Jump {
     std::uint32_t period;     // k
-    Eigen::Vector3d corners;  // what τ_k adds to the phases of the face's corners; 0 at corner 0
+    Eigen::Vector3d corners;  // factors of τ_k in the phases of the face's corners; 0 at corner 0
   };
-  // Vertices of the base surface, but a vertex whose amplitude is pinned to 0 has a phase of its own for
-  // every fan of live faces round it: wrinkles on either side of it need not agree.
+  // One per vertex of the base surface; but a vertex whose amplitude is pinned to 0 has a separate phase for
+  // every fan of live faces around it, as wrinkles on different sides of it need not agree.
   std::size_t vertices = 0;
   std::size_t periods = 0;
   std::vector<bool> live;                        // one a face

@@ -45,10 +45,10 @@ std::vector<bool> live_faces(const shell::Topology& topology, const std::vector<
   return live;
 }
 
-// Takes so much of the negative eigenvalues away, in the units that `scale` (per row) gives.
+// Removes this share of the negative eigenvalues, in the units given by `scale` (per row).
 void lift(LocalMatrix& matrix, const LocalVector& scale, double share) {
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
-  // Most are positive already, which a Cholesky factorisation tells at a tenth of the price.
+  // Most are positive definite already; a Cholesky factorisation finds this at a tenth of the cost.
   if (Eigen::LLT<LocalMatrix>(matrix).info() != Eigen::Success) {
     const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(matrix);
     matrix = eigen.eigenvectors() *
@@ -101,7 +101,7 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {
     if (!live_[f]) {
-      // Pinned all round: flat, whatever the rest does.
+      // All corners are pinned: flat in any state.
       const FaceEnergy still(forms_[f], model_);
       if (!wrinkle_free_[f]) relaxed_energy_ += still.relaxed() + still.value(LocalVector::Zero());
       continue;

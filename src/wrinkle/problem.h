@@ -33,14 +33,14 @@ class Problem {
   const std::vector<bool>& pinned() const { return pinned_; }  // one a vertex: a = 0
   const std::vector<bool>& wrinkle_free() const { return wrinkle_free_; }
 
-  // Typical sizes that make unknowns dimensionless: the largest √(2s₀)/|ω| and |ω| of the live faces' own
+  // Scales that make unknowns dimensionless: the largest √(2s₀)/|ω| and |ω| of the live faces' own
   // waves (start.h); never 0.
   double amplitude_scale() const { return amplitude_scale_; }
   double frequency_scale() const { return frequency_scale_; }
 
   // Largest amplitudes, in the scale, one a free amplitude: √(2s₀)/|ω| of the patch's strongest compression
-  // and of one wave over the patch's diameter. Longer waves than that are the base surface's own shape; where
-  // nothing else says how long they are (flat, free all round), the energy alone has no minimum.
+  // and of one wave over the patch's diameter. Longer waves belong to the shape of the base surface; where
+  // nothing else limits the wavelength (flat, free boundary), the energy alone has no minimum.
   const Eigen::VectorXd& upper() const { return upper_; }
 
   // Unknowns in one vector, all dimensionless: free amplitudes over the scale, phases, periods.
@@ -53,7 +53,7 @@ class Problem {
   Eigen::VectorXd pack(const Waves& waves) const;
   Waves unpack(const Eigen::VectorXd& x) const;
 
-  // What belongs to a set of faces that hangs together by edges (patches.h), amplitudes times `height`.
+  // Copies the values of one patch (patches.h), with amplitudes times `height`.
   void copy_patch(const std::vector<std::uint32_t>& faces, const Waves& from, Waves& to,
                   double height = 1) const;
 
@@ -61,12 +61,12 @@ class Problem {
   double energy(const Eigen::VectorXd& x) const;
   // The parts of it, one a face; 0 where none is.
   Eigen::VectorXd face_energies(const Eigen::VectorXd& x) const;
-  // J: the relaxed energy of the live faces, and all that faces have whose corners are pinned without being
+  // J: the relaxed energy of the live faces, and the whole energy of faces with pinned corners that are not
   // wrinkle-free.
   double relaxed_energy() const { return relaxed_energy_; }
   double gradient(const Eigen::VectorXd& x, Eigen::VectorXd& first) const;
-  // The lower half, of a pattern that never changes. `lifted`: how much of every face's negative eigenvalues
-  // is taken away; 0: exact, 1: each face's part is the nearest positive semidefinite one.
+  // The lower half, with a constant pattern. `lifted`: the share of every face's negative eigenvalues that is
+  // removed; 0: exact, 1: each face's part is the nearest positive semidefinite one.
   double hessian(const Eigen::VectorXd& x, Eigen::VectorXd& first, Eigen::SparseMatrix<double>& second,
                  double lifted) const;
   // The pattern, zeros filled in.

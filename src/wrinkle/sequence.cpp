@@ -17,8 +17,8 @@ using Eigen::Index;
 using Eigen::Vector2d;
 constexpr double turn = 2 * std::numbers::pi;
 
-// Amplitudes that are 0 stay so by symmetry, the energy being even in them; where waves may have become due
-// since the frame before they start from this part of what they would have by themselves.
+// Amplitudes that are 0 stay so by symmetry, the energy being even in them; where new waves may have become
+// possible since the frame before, amplitudes start from this share of the faces' own ones.
 constexpr double seed = 0.05;
 
 // Frames.
@@ -119,7 +119,7 @@ FieldSequence::FieldSequence(shell::Topology topology, const Model& model, std::
     : topology_(std::move(topology)), model_(model), clamped_(std::move(clamped)), options_(options) {}
 
 // The field of the frame before on this frame's live faces, its periods kept. Faces that have just become
-// live follow their neighbours, patches without any take their own waves.
+// live continue their neighbours' waves; patches without such neighbours start with their own waves.
 Waves FieldSequence::carried(const Problem& problem, const CoarseField& before) const {
   const PhaseComplex& complex = problem.complex();
   const std::size_t faces = topology_.faces.size();
@@ -165,7 +165,7 @@ Waves FieldSequence::carried(const Problem& problem, const CoarseField& before) 
 FieldSequence::State FieldSequence::state_of(const Problem& problem, const Waves& waves) const {
   const WaveCount count =
       count_waves(topology_, problem.forms(), problem.live(), waves.amplitude, problem.one_form(waves));
-  // Round a loop they are whole but for rounding.
+  // Around a loop they are whole numbers up to rounding.
   return {{waves.amplitude, corner_phases(problem, waves)},
           count.round ? std::round(count.waves) : count.waves};
 }
@@ -183,8 +183,8 @@ Solution FieldSequence::solve_on(const Problem& problem, const Waves& start, boo
   return solution;
 }
 
-// A field with other periods that costs so much less that it is worth a change: from what there is, and now
-// and then from a start that knows nothing of it, since there are many minima.
+// A field with other periods whose energy is low enough for a change: searched from the current field, and
+// sometimes from an independent start, since there are many minima.
 std::optional<Waves> FieldSequence::other_periods(const Problem& problem, const Solution& kept,
                                                   SequenceFrame& frame) {
   if (kept.waves.period.size() == 0) return std::nullopt;
@@ -213,7 +213,7 @@ std::optional<FieldSequence::State> FieldSequence::begun(const Problem& problem,
   const Field field = solve_field(topology_, forms, model_, wrinkle_free, clamped_, options_.field);
   frame.iterations += field.real.iterations + field.whole.iterations;
   if (flat(field.whole.waves.amplitude)) return std::nullopt;
-  // Faces that were released there are live here: the frames to come may want waves on them.
+  // Faces that were released there are live here, as later frames may need waves on them.
   const Solution solution =
       solve_on(problem, carried(problem, {field.whole.waves.amplitude, field.phase}), true, frame);
   frame.energy = solution.energy;
@@ -257,7 +257,7 @@ SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
     }
   } else if (auto state = begun(problem, forms, wrinkle_free, frame)) {
     now_ = std::move(state);
-    if (!shown_.phase.empty()) {  // the very first frame begins as it is
+    if (!shown_.phase.empty()) {  // the first frame is not aligned
       frame.waves_before = 0;
       faded_ = 0;
       rises_ = true;

@@ -1,9 +1,10 @@
-// Wrinkle fields over time: on a base surface that moves, waves glide with it and do not pop.
+// Wrinkle fields over time: on a moving base surface the waves move continuously with it.
 //
-// The energy (27) does not know the frame before. What it leaves open is chosen to change least, patch by
-// patch: one phase (closed form) and the sign of all phases. Whole-number periods stay until others cost
-// clearly less; then the old field and the new one, both solved on every frame, are cross-faded as the
-// complex amplitudes a exp(iφ). (Chen et al. 2021, section 7, leave all of this open.)
+// The energy (27) does not depend on the frame before. The values that it does not determine are chosen so
+// that they change least, for each patch: one phase (closed form) and the sign of all phases. Whole-number
+// periods are kept until others have a clearly lower energy; then the old field and the new one, both solved
+// on every frame, are cross-faded as the complex amplitudes a exp(iφ). (Chen et al. 2021, section 7, leave
+// all of this open.)
 #pragma once
 
 #include <optional>
@@ -18,20 +19,20 @@ namespace plisse::wrinkle {
 struct SequenceOptions {
   FieldOptions field;
   int fade = 6;  // frames that show both of two fields, ≥ 0
-  // Periods change where keeping them costs more than so many times what the new ones do, both above the
-  // energy that periods of any size would have: 9 is a real period ¾ off the whole number that is kept and ¼
-  // off the next. ≥ 1.
+  // Periods change where keeping them costs more than this many times what the new ones cost, both measured
+  // above the energy of real periods: 9 means a real period that is ¾ away from the kept whole number and ¼
+  // from the next. ≥ 1.
   double hysteresis = 9;
 };
 
 struct SequenceFrame {
-  CoarseField field;                   // what shows
+  CoarseField field;                   // the field to show
   Eigen::VectorXd one_form;            // its differences of phase, radians, one an edge
   double waves = 0;                    // of the newest periods, see Field
-  double share = 1;                    // 0 … 1: how much of what shows has the newest periods
-  std::optional<double> waves_before;  // where periods change from this frame on: what they changed from
-  // Radians against the frame before, root mean square by area and both amplitudes; 0 where one of them has
-  // no waves.
+  double share = 1;                    // 0 … 1: weight of the newest periods in `field`
+  std::optional<double> waves_before;  // if periods change from this frame on: the number of waves before
+  // Radians: change of phase since the frame before, root mean square weighted by area and both amplitudes; 0
+  // where one of them has no waves.
   double phase_step = 0;
   double energy = 0, kkt = 0;  // of the newest periods, see Solution
   int iterations = 0;          // of all solves of this frame
@@ -50,7 +51,7 @@ class FieldSequence {
   SequenceFrame next(const std::vector<FaceForms>& forms, const std::vector<bool>& wrinkle_free);
 
  private:
-  // A field that is solved on from frame to frame with the same periods.
+  // A field that is solved from frame to frame with the same periods.
   struct State {
     CoarseField field;
     double waves = 0;
@@ -67,21 +68,22 @@ class FieldSequence {
   Model model_;
   std::vector<bool> clamped_;
   SequenceOptions options_;
-  std::optional<State> now_, before_;  // the newest periods; those that fade out
+  std::optional<State> now_, before_;  // with the newest periods; with those that fade out
   int faded_ = 0;                      // frames since before_ began to fade
-  bool rises_ = false;                 // now_ fades in from nothing
-  int checks_ = 0;                     // of periods since those of now_ began
+  bool rises_ = false;                 // now_ fades in without an older field
+  int checks_ = 0;                     // checks of the periods since those of now_ began
   CoarseField shown_;                  // by the last frame; empty before the first
 };
 
 // z = (1 − share) a exp(iφ) of one field + share a exp(iφ) of the other, on faces where both have phases: the
-// larger share's phases, moved by what the other one turns them; never across more than half a turn.
+// phases of the field with the larger share, plus the change that the other one causes; never by more than
+// half a turn.
 CoarseField cross_faded(const std::vector<shell::Face>& faces, const CoarseField& from, const CoarseField& to,
                         double share);
 
-// Adds to the phases of each patch (faces with waves that share sides) of `field` the one number that brings
-// it nearest to `reference`, least squares of a exp(iφ) by area; turns their sign first where gradients run
-// against each other on the whole.
+// Adds to the phases of each patch (faces with waves that share sides) of `field` the one number for which it
+// is nearest to `reference`, least squares of a exp(iφ) by area; before, changes their sign where the
+// gradients are opposite on average.
 void align(const shell::Topology& topology, const std::vector<FaceForms>& forms, const CoarseField& reference,
            CoarseField& field);
 

@@ -58,9 +58,9 @@ class Factor {
   shell::Cholesky cholesky_;
 };
 
-// From the exact Hessian to one that is positive definite whatever the state, and on to short steps down the
-// gradient. The search takes the boldest that works: bolder by one after a whole step, more cautious after
-// none.
+// A series of Hessians: from the exact one to one that is positive definite in any state, and on to short
+// gradient steps. The search uses the first that works; it goes one level back toward the exact one after a
+// whole step, and one level on after a failed step.
 struct Caution {
   double lifted;   // see Problem::hessian
   double damping;  // added to the diagonal, in its mean
@@ -74,9 +74,9 @@ class Newton {
   explicit Newton(const Problem& problem) : problem_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
 
   // −H⁻¹ g on the unknowns that move; false where the Hessian is not positive definite. Amplitudes that this
-  // takes beyond a bound are taken to it instead and the others solved anew with that known, a few times: a
-  // step that is bent at many bounds leads down only where it is very short, and amplitudes beside waves take
-  // turns at 0.
+  // moves beyond a bound are set to the bound and the step of the others is solved again, a few times: a step
+  // that is cut off at many bounds is a descent direction only if it is very short, and amplitudes beside
+  // waves alternate at 0.
   bool direction(const VectorXd& x, std::vector<bool> held, const Caution& caution, VectorXd& step) {
     VectorXd first;
     problem_.hessian(x, first, matrix_, caution.lifted);
@@ -85,7 +85,7 @@ class Newton {
     for (Index i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) += caution.damping * mean;
     const SparseMatrix<double> whole = matrix_;
     const VectorXd& upper = problem_.upper();
-    VectorXd known = VectorXd::Zero(x.size());  // of what is held; what is close to a bound goes there
+    VectorXd known = VectorXd::Zero(x.size());  // the step of held unknowns; those near a bound move to it
     for (Index i = 0; i < problem_.amplitude_count(); ++i)
       if (held[static_cast<std::size_t>(i)]) known[i] = x[i] < upper[i] / 2 ? -x[i] : upper[i] - x[i];
     for (int round = 0; round < rounds; ++round) {
@@ -130,7 +130,7 @@ void hold(SparseMatrix<double>& matrix, const std::vector<bool>& held, double di
 
 double kkt_residual(const Problem& problem, const VectorXd& x, double energy, const VectorXd& first,
                     bool fixed_periods) {
-  // max() below would pass over a NaN.
+  // max() below would ignore a NaN.
   if (!std::isfinite(energy) || !first.allFinite() || !x.allFinite())
     return std::numeric_limits<double>::infinity();
   const Index amplitudes = problem.amplitude_count();
@@ -193,7 +193,7 @@ Solution solve(const Problem& problem, const Waves& start, const SolveOptions& o
     for (;; ++level) {
       if (level == cautions.size()) break;
       if (!newton.direction(x, held, cautions[level], step)) continue;
-      // More cautious rather than much shorter, where there is a choice.
+      // Prefers another Hessian to a much shorter step.
       const int halvings = level + 1 < cautions.size() ? 4 : 40;
       length = 1;
       for (int halving = 0; halving < halvings && !down; ++halving) {

@@ -12,7 +12,7 @@ struct SolveOptions {
   int max_iterations = 500;
   double kkt = 1e-6;           // stop where the scaled residual is at most this and
   double energy = 1e-9;        // the last step gained at most this part of the energy above the relaxed one
-  bool fixed_periods = false;  // periods stay as they are
+  bool fixed_periods = false;  // periods are not changed
 };
 
 struct SolveStep {
@@ -31,16 +31,16 @@ struct Solution {
   std::vector<SolveStep> trace;
 };
 
-// The largest of |a_s ∂E/∂a_v|, |∂E/∂φ_i| and |∂E/∂τ_k| over the unknowns that can move, divided by E, the
+// The largest of |a_s ∂E/∂a_v|, |∂E/∂φ_i| and |∂E/∂τ_k| over the free unknowns, divided by E, the
 // energy above the relaxed one, where
-// a_s is the largest amplitude of the state (the problem's scale where all are 0); of ∂E/∂a_v at a_v = 0
-// only what is negative counts, at its upper bound only what is positive. Dimensionless: E changes by less
-// than this part of itself when the largest wave changes by its own height, or one phase by a radian.
-// `first`: dE by the problem's unknowns.
+// a_s is the largest amplitude of the state (the problem's scale where all are 0); at a_v = 0 only negative
+// ∂E/∂a_v count, at its upper bound only positive ones. Dimensionless: the relative change of E is less than
+// this when the largest wave changes by its own height, or one phase by a radian. `first`: dE by the
+// problem's unknowns.
 double kkt_residual(const Problem& problem, const Eigen::VectorXd& x, double energy,
                     const Eigen::VectorXd& first, bool fixed_periods = false);
 
-// Rows and columns of unknowns that are held become those of `diagonal` times the identity; `matrix`: the
+// Replaces rows and columns of held unknowns by those of `diagonal` times the identity; `matrix`: the
 // lower half.
 void hold(Eigen::SparseMatrix<double>& matrix, const std::vector<bool>& held, double diagonal);
 

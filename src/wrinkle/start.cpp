@@ -18,7 +18,8 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-// Turns gradients so that neighbours agree, surest edges first; `known`: one flag a face that stays as it is.
+// Chooses the signs of gradients so that neighbours agree, in the order of certainty of the edges; `known`:
+// one flag for each face whose sign is fixed.
 void comb(std::vector<LocalWaves>& waves, const Problem& problem, const std::vector<bool>& known) {
   const std::vector<FaceForms>& forms = problem.forms();
   const shell::Topology& topology = problem.topology();
@@ -66,7 +67,7 @@ void comb(std::vector<LocalWaves>& waves, const Problem& problem, const std::vec
       const Link link = queue.top();
       queue.pop();
       if (done[link.to]) continue;
-      // Whether the pair disagrees is seen from the sign that `from` had when it was reached, which is final.
+      // The sign of `from` was final when it was reached, so it decides whether the pair disagrees.
       if (link.turn) waves[link.to].gradient *= -1;
       reach(link.to);
     }
@@ -83,7 +84,7 @@ void comb(std::vector<LocalWaves>& waves, const Problem& problem, const std::vec
   }
 }
 
-// What the one-form should be on each face, and how much that counts.
+// The target of the one-form on each face, and its weight.
 struct Target {
   std::vector<LocalWaves> local;
   std::vector<double> weight;
@@ -102,8 +103,9 @@ Vector2d gradient_of(const Problem& problem, const Waves& waves, std::size_t fac
          problem.complex().corner_phases(face, waves.phase, waves.period);
 }
 
-// Of every free vertex, the mean of what suits the faces round it: for the one-form of the state, `frequency`
-// times as dense; or √(2s₀)/|ω| for their own waves, whether they need more compression than there is or not.
+// For every free vertex, the mean of the amplitudes of the faces around it: for the one-form of the state,
+// `frequency` times as dense; or √(2s₀)/|ω| for their own waves, whether they need more compression than
+// there is or not.
 enum class Suits { projected, uncritical };
 VectorXd suiting_amplitudes(const Problem& problem, const std::vector<LocalWaves>& local, const Waves& waves,
                             Suits suits = Suits::projected, double frequency = 1) {
@@ -133,14 +135,14 @@ double sum_over(const std::vector<std::uint32_t>& faces, const VectorXd& of_face
   return sum;
 }
 
-// Signs combed, and weights by area and compression.
+// Consistent signs, and weights from area and compression.
 Target combed(const Problem& problem, std::vector<LocalWaves> local) {
   Target target;
   target.local = std::move(local);
   double most = 0;
   for (const LocalWaves& l : target.local) most = std::max(most, l.compression);
   comb(target.local, problem, std::vector<bool>(target.local.size(), false));
-  // Faces without compression still hold the form together.
+  // Faces without compression keep a small weight, to connect the form.
   for (std::size_t f = 0; f < target.local.size(); ++f)
     target.weight.push_back(problem.forms()[f].rest.area *
                             (most > 0 ? std::max(target.local[f].compression / most, 1e-3) : 1));
@@ -165,9 +167,9 @@ Waves initial_waves(const Problem& problem, double frequency) {
   Waves fitted;
   fit(problem, target, fitted);
 
-  // Closed forms are not as dense as each face would like its waves. Patch by patch: the amplitudes that suit
-  // what they are, all scaled by what is best (the energy is c₀ + c₂t² + c₄t⁴ in the scale t), and if even
-  // that is flat, other frequencies.
+  // A closed form does not have each face's own frequency. For each patch: the amplitudes for the closed
+  // form, multiplied by the best scale t (the energy is c₀ + c₂t² + c₄t⁴), and if that gives t = 0, other
+  // frequencies.
   Waves start = fitted;
   start.amplitude = VectorXd::Zero(static_cast<Index>(problem.pinned().size()));
   const VectorXd flat = problem.face_energies(problem.pack(start));
@@ -191,14 +193,14 @@ Waves initial_waves(const Problem& problem, double frequency) {
       problem.copy_patch(faces[i], trial, start, std::sqrt(-c2 / (2 * c4)) / 2);
       done[i] = step == 0;
     }
-    if (step == 0) {  // a patch that nothing compresses stays flat
+    if (step == 0) {  // a patch without compression stays flat
       for (std::size_t i = 0; i < faces.size(); ++i)
         done[i] = done[i] || std::none_of(faces[i].begin(), faces[i].end(),
                                           [&](std::uint32_t f) { return target.local[f].compression > 0; });
     }
   }
-  // Amplitudes of one height are not the shape that a patch compressed but here and there would have: begin
-  // above, and let the solver find out.
+  // In a patch with compression only in places, equal amplitudes are too low or too high: begin with higher
+  // ones; the solver reduces them.
   fitted.amplitude = suiting_amplitudes(problem, target.local, fitted, Suits::uncritical);
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (!done[i] && gained[i] == 0) problem.copy_patch(faces[i], fitted, start);
@@ -216,7 +218,7 @@ Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves
     const double mean = (waves.amplitude[t[0]] + waves.amplitude[t[1]] + waves.amplitude[t[2]]) / 3;
     known[f] = to.live()[f] && from.live()[f] && mean > 0;
     if (known[f]) target.local[f].gradient = gradient_of(from, waves, f);
-    // What there is stays, the more the higher it is; the rest follows as far as it likes to.
+    // Existing waves are kept, with a weight that grows with their height; the others follow freely.
     target.weight.push_back(to.forms()[f].rest.area * ((known[f] ? mean * mean / (most * most) : 0) + 1e-3));
   }
   comb(target.local, to, known);
@@ -234,7 +236,7 @@ Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves
                                                             : 0;
     }
     const double energy = to.energy(to.pack(result));
-    // Not flat again, even if that were less: the solver would stay there.
+    // Not flat again, even if its energy is lower: the solver could not leave that state.
     if (height > 0 && !(energy < least)) continue;
     if (height > 0) least = energy;
     best = result.amplitude;

@@ -71,15 +71,16 @@ Eigen::Matrix3d fitted_curvature(const BaseSurface& surface, const Eigen::Matrix
   double size = 0;
   for (const std::uint32_t v : near) size = std::max(size, (surface.positions.col(v) - centre).norm());
   if (!(size > 0)) return Eigen::Matrix3d::Zero();
-  // z = c₀x + c₁y + ½c₂x² + c₃xy + ½c₄y², in units of `size`. Where there are too few vertices (a small mesh)
-  // the least-norm solution takes what they do not say as flat.
+  // z = c₀x + c₁y + ½c₂x² + c₃xy + ½c₄y², in units of `size`. With too few vertices (a small mesh) the
+  // least-norm solution is flat in the undetermined directions.
   Eigen::Matrix<double, 5, 5> normal_matrix = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
   for (const std::uint32_t v : near) {
     if (!(normals.col(v).dot(normal) > 0)) continue;  // the other side of a fold
     const Vector3d d = (surface.positions.col(v) - centre) / size;
     const double x = d.dot(tangent.col(0)), y = d.dot(tangent.col(1));
-    // Surfaces are not quadratics: what is far off counts little, and would bend most of them too much.
+    // Surfaces are not exactly quadratic: distant vertices have a small weight, since they would make most
+    // curvatures too large.
     const double weight = std::exp(-4 * (x * x + y * y));
     const Eigen::Matrix<double, 5, 1> terms{x, y, x * x / 2, x * y, y * y / 2};
     normal_matrix += weight * terms * terms.transpose();

@@ -1,4 +1,4 @@
-// The base surface that wrinkles stand on, and what the wrinkle energy needs to know of each of its faces.
+// The base surface of the wrinkles, and the data of each face for the wrinkle energy.
 //
 // 2×2 matrices and 2-vectors of a face are components in the orthonormal frame of its rest shape
 // (shell::RestFace), so that I_u is the identity and M is the paper's I_u⁻¹M.
@@ -26,14 +26,15 @@ struct FaceForms {
   Eigen::Matrix2d second_form = Eigen::Matrix2d::Zero();  // II_b, 1/m
 };
 
-// Where waves travel: the unit vector ŵ of the strain's smaller eigenvalue λ₂ (eq. 29), of either sign.
+// The direction in which waves travel: the unit eigenvector ŵ of the strain's smaller eigenvalue λ₂ (eq. 29),
+// of either sign.
 struct PrincipalStrain {
   double tension = 0, compression = 0;  // λ₁ ≥ λ₂
   Eigen::Vector2d wave, crest;          // ŵ, ŵ⊥
 };
 PrincipalStrain principal_strain(const FaceForms& forms);
 
-// How II_b is found.
+// How II_b is estimated.
 struct CurvatureFit {
   enum Kind {
     quadratic,  // a mean of the corners' curvatures, each from a quadratic through the vertices round it
@@ -56,7 +57,7 @@ inline double side_sign(const shell::Topology& topology, std::size_t face, std::
   const shell::Face& f = topology.faces[face];
   return f[side] < f[(side + 1) % 3] ? 1 : -1;
 }
-// The face beyond a side; shell::none where there is none.
+// The face across a side; shell::none where there is none.
 inline std::uint32_t across(const shell::Topology& topology, std::size_t face, std::size_t side) {
   const auto& both = topology.edges[side_edge(topology, face, side)].face;
   return both[0] == face ? both[1] : both[0];

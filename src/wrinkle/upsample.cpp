@@ -127,7 +127,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
   result.amplitude =
       Eigen::Map<const Eigen::VectorXd>(amplitude.data(), static_cast<Index>(amplitude.size()));
 
-  // Where tangents fail (a sharp corner's may, a collapsed face's do), the faces' own normal is left.
+  // Where tangents are undefined (at some sharp corners, on collapsed faces), the faces' own normal is used.
   result.normals = vertex_normals(result.faces, result.positions);
   result.phase = Eigen::VectorXd::Zero(result.positions.cols());
   result.gradient = Eigen::Matrix3Xd::Zero(3, result.positions.cols());
@@ -186,8 +186,7 @@ Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms
     for (Index c = 0; c < 3; ++c) x.col(c) = surface.positions.col(t[static_cast<std::size_t>(c)]);
     const Eigen::Matrix<double, 3, 2> frame = x * gradients.transpose();
     const Eigen::Matrix2d first = frame.transpose() * frame;
-    if (!(std::abs(first.determinant()) > 1e-12 * first.squaredNorm()))
-      continue;  // collapsed: nowhere to lean
+    if (!(std::abs(first.determinant()) > 1e-12 * first.squaredNorm())) continue;  // collapsed: undefined
     const double weight = forms[f].rest.area * a * a;
     for (const std::uint32_t vertex : t) {
       sum.col(vertex) += weight * (frame * first.inverse() * v);
@@ -200,7 +199,7 @@ Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms
   return sum;
 }
 
-// With v₂'s ⅛ cloth is stretched alike all along a wave, but beyond a slope of 2 places along it would pass
+// With the ⅛ of v₂ the strain is constant along a wave, but beyond a slope of 2 points along it would pass
 // each other: d(x + c s² sin 2φ/k)/dx = 1 + 2 c s² cos 2φ is below 0 at the flanks where c > 1/(2s²).
 double tangential_shift(double slope) {
   return slope > 2 ? 0.5 / (slope * slope) : 0.125;

@@ -2,9 +2,9 @@
 // section E.5): base surface, amplitude and phase by Loop subdivision to the limit surface, then displaced by
 // (19).
 //
-// Faces without amplitude at any corner have no waves and stay flat: amplitudes are 0 on all of what becomes
-// of them, its edges included, as if they were cut out. Phases are subdivided in the branch of one face
-// (mesh/corner_field.h), so jumps stay whole turns.
+// Faces with amplitude 0 at all corners have no waves and stay flat: amplitudes are 0 on all their small
+// triangles, including the edges, as if the faces were cut out. Phases are subdivided in the branch of one
+// face (mesh/corner_field.h), so jumps stay whole turns.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,17 +30,17 @@ struct FineField {
   Eigen::VectorXd amplitude;             // metres
   Eigen::VectorXd phase;                 // radians, of any branch; 0 where there are no waves
   Eigen::Matrix3Xd gradient;             // of the phase along the surface, radians per metre
-  Eigen::Matrix3Xd lean;  // dr_b I_b⁻¹v of (17): v₁/a; no columns where it was not asked for
+  Eigen::Matrix3Xd lean;  // dr_b I_b⁻¹v of (17): v₁/a; no columns where it was not requested
   std::vector<std::array<Eigen::Vector2d, 3>> uv;  // of corners; empty where none were given
 };
 
-// What a base surface becomes besides its field. Empty: without.
+// Further data to subdivide with the base surface. Empty: without.
 struct Extras {
   Eigen::Matrix3Xd lean;                           // one column a vertex of the base surface, see leaning()
   std::vector<std::array<Eigen::Vector2d, 3>> uv;  // one a corner; continuous where both ends of a side agree
 };
 
-// Every edge halved `levels` times. Corners of the outline that turn by more than 60 degrees at rest stay
+// Every edge halved `levels` times. Corners of the boundary that turn by more than 60 degrees at rest stay
 // sharp. Throws Error(bad_input) where the surface is not manifold, or the field is another surface's or not
 // finite.
 FineField upsample(const BaseSurface& surface, const CoarseField& field, int levels,
@@ -50,8 +50,8 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
 Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms>& forms, double poisson,
                          const CoarseField& field);
 
-// Of a²∇φ sin 2φ, how much cloth shifts along the surface under waves of slope a|∇φ|: ⅛ (19), but beyond a
-// slope of 2 so much less that cloth just stays in order.
+// The factor of a²∇φ sin 2φ in the tangential displacement for waves of slope a|∇φ|: ⅛ (19), but beyond a
+// slope of 2 reduced so that cloth does not fold over itself.
 double tangential_shift(double slope);
 
 // r_b + a sin φ v + tangential_shift a² sin 2φ ∇φ + a cos φ n (19): positions, metres; with_v2: whether with

@@ -9,8 +9,8 @@
 namespace plisse::wrinkle {
 namespace {
 
-// More waves, or as many on a shorter line. Loops win over ways: their number does not depend on where they
-// lie.
+// More waves, or as many on a shorter line. Loops are preferred to paths: their number does not depend on
+// their position.
 void keep_better(WaveCount& best, const WaveCount& other) {
   constexpr double same = 1e-6;  // turns; sums of some hundred phases in double precision
   if (!(other.waves > same)) return;
@@ -20,7 +20,7 @@ void keep_better(WaveCount& best, const WaveCount& other) {
     best = other;
 }
 
-// Ways and loops from a few vertices, each the far end of the one before.
+// Paths and loops from a few vertices, each the far end of the one before.
 void follow_ways(const PatchGraph& graph, std::uint32_t from, const Eigen::VectorXd& one_form,
                  WaveCount& best) {
   constexpr int sweeps = 4;  // on a sheet the second has found both ends
@@ -39,7 +39,7 @@ void follow_ways(const PatchGraph& graph, std::uint32_t from, const Eigen::Vecto
   }
 }
 
-// The rims of a patch, each followed once round with its faces on the left.
+// The boundaries of a patch, each followed once around with its faces on the left.
 void follow_rims(const shell::Topology& topology, const std::vector<FaceForms>& forms,
                  const std::vector<bool>& visible, const std::vector<std::uint32_t>& patch,
                  const Eigen::VectorXd& one_form, WaveCount& best) {
@@ -61,7 +61,7 @@ void follow_rims(const shell::Topology& topology, const std::vector<FaceForms>& 
                                       : side == 1 ? Eigen::Vector2d(rest.col(1) - rest.col(0))
                                                   : Eigen::Vector2d(rest.col(1));
         rim.length += along.norm();
-        // On round the side's end, to the next that has nothing beyond.
+        // Around the side's end to the next boundary side.
         side = (side + 1) % 3;
         for (std::uint32_t next = beyond(face, side); next != shell::none; next = beyond(face, side)) {
           const std::uint32_t crossed = side_edge(topology, face, side);

@@ -8,13 +8,14 @@
 
 namespace plisse::wrinkle {
 
-// The most waves that a loop or a shortest way meets in one patch of visible faces, those whose corners all
-// have more than a hundredth of the largest amplitude. Loops are the patch's rims and the shortest ones
-// through a few of its vertices (two shortest ways that meet); ways are the shortest between the vertices
-// where the phase is farthest apart. Both count ∮ω/2π, so that neither crest lines nor phases need names.
+// The largest number of waves along a loop or a shortest path in one patch of visible faces, those whose
+// corners all have more than a hundredth of the largest amplitude. Loops are the patch's boundaries and the
+// shortest ones through a few of its vertices (two shortest paths that meet); paths are the shortest ones
+// between the vertices with the largest difference of phase. Both count ∮ω/2π, so that crests need not be
+// identified.
 struct WaveCount {
-  double waves = 0;    // whole round a loop if periods are
-  bool round = false;  // a loop; else a way with two ends
+  double waves = 0;    // a whole number around a loop with whole-number periods
+  bool round = false;  // a loop; else a path with two ends
   double length = 0;   // its length at rest, metres
 };
 

@@ -1,4 +1,4 @@
-// Which faces have no wrinkles: W of section 5.1, found from the strain alone.
+// The faces without wrinkles: W of section 5.1, from the strain alone.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace plisse::wrinkle {
 
 enum class WrinkleFreeRule {
-  paper,   // λ₂ averaged with the neighbours' is positive; then lone faces join what is all round them
+  paper,   // λ₂ averaged with the neighbours' is positive; then single faces join the faces around them
   authors  // their program's: λ₂ ≥ 0, then also faces whose three vertices belong to such faces
 };
 
