@@ -36,7 +36,7 @@ struct Arguments {
     options.flag("--overwrite", overwrite, "Replace a scene file that exists");
     options.add("--limits", import_options.limits.factor, 1e-6, 1e6, "FACTOR",
                 "Factor on what the model's file may ask for, as in a scene");
-    options.hidden_flag("--keys-markdown", keys_markdown);  // makes docs/scene.md; of no use to anybody else
+    options.hidden_flag("--keys-markdown", keys_markdown);  // makes docs/scene.md; not for users
   }
 
   CommonArguments common;

@@ -1,4 +1,4 @@
-// What is wrong with a file that people write, gathered, so that one look at the output mends the whole file.
+// Collects the errors of a file that users write, so that they can correct all of them at once.
 #pragma once
 
 #include <toml++/toml.h>
@@ -28,7 +28,7 @@ class Complaints {
 // A place in a file as messages name it: "file:line:column".
 std::string place_in(const std::filesystem::path& file, const toml::source_position& at);
 
-// The file's content as TOML; what is no TOML is thrown as the file's one complaint.
+// The file's content as TOML; a syntax error is thrown as the file's only complaint.
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace plisse::config

@@ -1,4 +1,4 @@
-// Scene files of `plisse drape`: what cloth is made of, what holds it, what pulls at it (docs/drape.md).
+// Scene files of `plisse drape`: material, boundary conditions and loads of cloth (docs/drape.md).
 #pragma once
 
 #include <array>

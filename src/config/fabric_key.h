@@ -13,7 +13,7 @@ inline constexpr const char* fabric_allowed =
     "}, "
     "{ weft = { B, E }, warp = { B, E } }, with density = \"120 g/m²\" where it is known";
 
-// Numbers that are lengths are times `metres`. None where something is wrong, which is complained of.
+// Numbers that are lengths are times `metres`. None where something is wrong, with a complaint.
 std::optional<sizing::Fabric> read_fabric(const toml::node& node, double metres, Complaints& complaints);
 
 }  // namespace plisse::config

@@ -180,7 +180,7 @@ bool names_many_files(const std::filesystem::path& path) {
 void check_frame_pattern(const std::string& pattern) {
   const std::string name = fs::path(pattern).filename().string();
   const std::string extension = lower(fs::path(name).extension().string());
-  // A folder may have a dot in its name, but nobody calls one so.
+  // A folder may have a dot in its name, but not with such an ending.
   static const std::set<std::string> other_pictures{".jpg", ".jpeg", ".exr", ".tif", ".tiff", ".tga",
                                                     ".bmp", ".webp", ".gif", ".mp4", ".webm", ".mov",
                                                     ".mkv", ".avi",  ".ppm", ".hdr"};

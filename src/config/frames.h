@@ -1,4 +1,4 @@
-// Which frames a selection picks, and the file each of them goes to.
+// The frames of a selection, and the file of each.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,8 @@ bool names_many_files(const std::filesystem::path& path);
 // Throws Error(bad_input) where frame_path would give another image format than PNG.
 void check_frame_pattern(const std::string& pattern);
 
-// Throws Error(bad_input) where two of these frames would go to one file, saying what pattern would do.
+// Throws Error(bad_input) where two of these frames would have the same file, with a pattern that would be
+// right.
 void check_frame_paths(const std::string& pattern, std::span<const int> frames);
 
 }  // namespace plisse::config

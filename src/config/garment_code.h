@@ -12,9 +12,9 @@
 
 namespace plisse::config {
 
-// All panels of one fabric, which the files do not tell. A stitch joins the ends of its edges that lie closer
-// to each other as the panels are placed. Throws Error(bad_input) that names the place in the JSON, all that
-// is wrong at once.
+// All panels have one fabric, which the files do not contain. A stitch joins those ends of its edges that are
+// nearer to each other in the placed panels. Throws Error(bad_input) that names the place in the JSON, all
+// that is wrong at once.
 sizing::Garment parse_garment_code(std::string_view text, const std::filesystem::path& file,
                                    const sizing::Fabric& fabric);
 

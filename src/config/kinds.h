@@ -1,4 +1,4 @@
-// The kinds of values that keys of a scene have: how each is read, checked, shown and described. Only config/
+// The kinds of values of a scene's keys: how each is read, checked, shown and described. Only config/
 // sees this; toml++ nodes carry values from the command line as well.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace plisse::config {
 
-// Why a value will not do; what is allowed instead is the key's to say.
+// The reason why a value is refused; the key adds what is allowed.
 struct Problem {
   std::string what;
   std::string hint;  // " (did you mean 'smooth'?)" or nothing
@@ -42,12 +42,11 @@ Member<Value> member(Group SceneSettings::*group, Value Group::*value) {
 
 struct Range {
   double low = 0, high = 1;
-  std::string_view special =
-      {};  // what one value outside low … high stands for, which is allowed all the same
+  std::string_view special = {};  // the meaning of one value outside low … high that is also allowed
   double special_value = 0;
 };
 
-// What a TOML node holds; each throws Problem where it is something else.
+// The value of a TOML node; each throws Problem where it has another type.
 double number_of(const toml::node& node);
 double length_of(const toml::node& node);  // metres; not yet known to be finite
 std::int64_t whole_of(const toml::node& node);
@@ -55,7 +54,7 @@ std::vector<std::string> names_of(const toml::node& node);  // a text or an arra
 // The number itself; Problem where it is not finite or out of range.
 double within(double value, const Range& range);
 std::string range_text(const Range& range);
-// The file of a text that has to be there, found from the folder.
+// The existing file that a text names, relative to the folder.
 std::filesystem::path existing_file(const toml::node& node, const std::filesystem::path& folder);
 // Width and height of a picture, "1280x1024" or [1280, 1024].
 std::pair<int, int> size_of(const toml::node& node);
@@ -91,7 +90,7 @@ Kind file_path(Member<std::filesystem::path> value, std::vector<std::string> end
 Kind frame_pattern(Member<std::string> value);
 Kind fabric(Member<std::string> value);  // as parse_fabric takes it; empty: none
 
-// Words that stand for the values of an enumeration.
+// Words for the values of an enumeration.
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 

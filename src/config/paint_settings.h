@@ -1,4 +1,4 @@
-// What a paint file (docs/paint.md) decides, checked: the strokes that lay wrinkles onto the rest pose of a
+// The checked contents of a paint file (docs/paint.md): the strokes that paint wrinkles on the rest pose of a
 // model (Loviscach 2006, section 7). Lengths are metres, angles degrees.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace plisse::config {
 
-// The way in which cloth is gathered; folds run at right angles to it.
+// The direction in which cloth is gathered; folds are perpendicular to it.
 struct PaintDirection {
   enum class Kind {
     across,  // at right angles to the stroke: its fold runs along it

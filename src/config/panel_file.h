@@ -1,4 +1,4 @@
-// Panel files: pattern pieces, their fabric and what is done along their lines, in TOML (docs/sizing.md).
+// Panel files: pattern pieces, their fabric and the techniques along their lines, in TOML (docs/sizing.md).
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct PanelFile {
 
 // Throw Error(bad_input) with file:line:column for all that is wrong at once: syntax, unknown keys and words
 // (with the nearest known one), values out of range.
-// `fabric`: takes the place of every panel's own; `.json`, a GarmentCode pattern (garment_code.h), tells none
-// and needs it.
+// `fabric`: replaces every panel's own; a `.json` file, a GarmentCode pattern (garment_code.h), has none and
+// needs it.
 PanelFile load_panels(const std::filesystem::path& file, const sizing::Fabric* fabric = nullptr);
 PanelFile parse_panels(std::string_view text, const std::filesystem::path& file,
                        const sizing::Fabric* fabric = nullptr);
@@ -28,7 +28,7 @@ PanelFile parse_panels(std::string_view text, const std::filesystem::path& file,
 // Error(bad_input) where a name is unknown.
 void keep_pieces(PanelFile& file, const std::vector<std::string>& names);
 
-// Whether a TOML file is one of panels and no scene. Throws Error(bad_input) where it cannot be read or is no
+// Whether a TOML file is a panel file, not a scene. Throws Error(bad_input) where it cannot be read or is no
 // TOML.
 bool is_panel_file(const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// Everything a scene decides, checked and with defaults filled in. Made from a scene file and the command
+// All settings of a scene, checked and with defaults. Made from a scene file and the command
 // line by config/scene_file.h; used by the pipeline. Lengths are metres, angles degrees, colours sRGB in 0…1.
 #pragma once
 
@@ -68,7 +68,7 @@ struct RelaxSettings {
 };
 
 struct CameraSettings {
-  // An elevation that none can have: 15°, rising to 50° for what lies flat.
+  // An impossible elevation, which means: 15°, up to 50° for flat models.
   static constexpr double from_the_shape = 90;
   std::string name;                   // a camera of the model by name or index; empty: the one below
   double focal_length = 75;           // millimetres on a 36 mm wide film

@@ -15,7 +15,7 @@
 
 namespace plisse::config {
 
-// Reads keys with their ranges and complains of what will not do; at the end of keys that nobody asked for.
+// Reads keys with their ranges and adds complaints about wrong values; at the end, about unknown keys.
 class TableReader {
  public:
   // `name` as messages have it; numbers that are lengths are times `metres`.

@@ -1,4 +1,4 @@
-// What assimp 5.2.5 does not look at in COLLADA files, and reads whatever lies behind in memory for.
+// Checks of COLLADA arrays that assimp 5.2.5 lacks, so that it would read memory beyond them.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// FLIP: how different two pictures look when flipped between on a screen (P. Andersson, J. Nilsson, T.
+// FLIP: the visible difference of two pictures that alternate on a screen (P. Andersson, J. Nilsson, T.
 // Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild: "FLIP: A Difference Evaluator for Alternating
 // Images", HPG 2020).
 #pragma once
@@ -19,8 +19,8 @@ struct FlipResult {
   std::vector<float> error;  // width·height, rows from top to bottom, 0 (looks the same) … 1
 };
 
-// Alpha is not looked at: composite first. A pixel counts towards the mean where `mask` (width·height
-// entries) is not 0; an empty span counts all. Outside the image the border pixels go on. Throws
+// Alpha is ignored: composite first. A pixel counts towards the mean where `mask` (width·height
+// entries) is not 0; an empty span counts all. Outside the image the border pixels are repeated. Throws
 // Error(bad_input) where the sizes of images or mask differ or pixels_per_degree is not positive.
 FlipResult flip(const Image& reference, const Image& test, std::span<const std::uint8_t> mask = {},
                 double pixels_per_degree = flip_pixels_per_degree);

@@ -21,8 +21,8 @@ Image load_image(const std::filesystem::path& path);
 // `name` is for messages: "embedded texture 0 of fox.glb".
 Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name);
 
-// A picture that says how much: brightness times alpha at a place, 0…1, bilinear; v upward, repeated beyond
-// 0…1. Its values are taken as they are, not as sRGB.
+// A picture as a map of amounts: brightness times alpha at a place, 0…1, bilinear; v upward, repeated outside
+// 0…1. Its values are not decoded as sRGB.
 double amount_at(const Image& image, const glm::dvec2& uv);
 
 }  // namespace plisse::io

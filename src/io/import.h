@@ -14,11 +14,11 @@ struct ImportOptions {
   std::optional<double> metres_per_unit;  // overrides the file's own unit
   std::string up;                         // "x", "y", "z", or empty: as the file says
   std::filesystem::path cache = {};       // MDD or PC2 over the model's mesh; empty: none
-  Limits limits = {};                     // of what the file may ask for
+  Limits limits = {};                     // of the resources for one file
 };
 
-// Throws Error(bad_input) with file, what is wrong and what to do. What it returns has been validated. Files
-// are read in a process of their own (io/isolated_import.h), so that a damaged one cannot do harm.
+// Throws Error(bad_input) with file, what is wrong and what to do. The result has been validated. Files are
+// read in a separate process (io/isolated_import.h), so that a damaged one can do no harm.
 Model import_model(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // Throws Error(bad_input): no triangles, indices out of range, non-finite numbers, wrong counts, cyclic

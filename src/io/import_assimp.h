@@ -8,7 +8,7 @@
 
 namespace plisse::io {
 
-// Throws Error(bad_input) with assimp's own words where it cannot read the file. The result is not yet
+// Throws Error(bad_input) with assimp's own message where it cannot read the file. The result is not yet
 // validated.
 Model import_assimp(const std::filesystem::path& path, const ImportOptions& options);
 

@@ -44,7 +44,7 @@ int load_texture(const AssimpScene& from, const std::string& name, Texture::Use 
 
 void read_alpha(const aiMaterial& source, Material& material) {
   float value = 1;
-  // Programs disagree whether 0 means clear or solid; a material that nobody could see is not what they
+  // Programs disagree whether 0 means clear or solid; an invisible material is not what they
   // meant.
   if (source.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS && value > 0 && value < 1) {
     material.base_colour.a = value;

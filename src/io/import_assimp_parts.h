@@ -1,4 +1,4 @@
-// The pieces of the assimp reader, one file each; they see the scene through this and fill the Model.
+// The pieces of the assimp reader, one file each; they read the scene from this struct and fill the Model.
 #pragma once
 
 #include <assimp/matrix4x4.h>
@@ -23,7 +23,8 @@ struct AssimpScene {
   std::filesystem::path path;
   std::unordered_map<std::string, int> node_ids;  // first node of each name → index into Model::nodes
   std::unordered_map<const aiNode*, int> ids;     // index into Model::nodes
-  // FBX: what moves a node's meshes but not its children; only where it is not the identity.
+  // FBX: transforms that apply to a node's meshes but not to its children; only those that are not the
+  // identity.
   std::unordered_map<const aiNode*, glm::dmat4> geometric;
   std::vector<int> mesh_ids;          // aiMesh → index into Model::meshes, −1 without triangles
   std::vector<unsigned> uv_channels;  // per aiMaterial: the uv set of its base-colour texture
@@ -37,9 +38,9 @@ inline glm::dmat4 mat4(const aiMatrix4x4& m) {
       {m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
 }
 
-// Nodes under one that holds `world`; fills node_ids, ids and geometric.
+// Adds the nodes below a root node with the matrix `world`; fills node_ids, ids and geometric.
 void read_nodes(AssimpScene& from, const glm::dmat4& world, Model& model);
-// Once meshes and nodes are read: which node shows which mesh.
+// After meshes and nodes have been read: assigns meshes to nodes.
 void hang_meshes(const AssimpScene& from, Model& model);
 void read_materials(AssimpScene& from, Model& model);  // and textures; fills uv_channels
 void read_meshes(AssimpScene& from, Model& model);     // fills mesh_ids; bones need node_ids

@@ -2,8 +2,8 @@
 // sparse and quantized accessors, compressed meshes and every index of them are read and checked here.
 //
 // Extensions: KHR_mesh_quantization, KHR_texture_transform, EXT_meshopt_compression,
-// KHR_draco_mesh_compression, KHR_materials_pbrSpecularGlossiness (its colour). Those that only say how a
-// surface shines or is lit are passed over; any other that the file requires is an error.
+// KHR_draco_mesh_compression, KHR_materials_pbrSpecularGlossiness (its colour). Extensions that only concern
+// reflection and lights are ignored; any other that the file requires is an error.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Values of a glTF's JSON that know where they stand: whatever is of the wrong type, out of range or missing
-// becomes an error such as "cloth.gltf: meshes[0].primitives[1].indices: is 7, of 5 accessors".
+// Values of a glTF's JSON with their place in it: a value of the wrong type, out of range or missing gives an
+// error such as "cloth.gltf: meshes[0].primitives[1].indices: is 7, of 5 accessors".
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ class GltfValue {
   explicit operator bool() const { return json_ != nullptr; }  // whether it is there
   [[noreturn]] void fail(const std::string& what) const;       // throws Error(bad_input)
 
-  // Objects. Members of what is not there are not there either.
+  // Objects. A missing object has no members.
   GltfValue operator[](const std::string& key) const;
   std::vector<std::pair<std::string, GltfValue>> members() const;
-  // Arrays. One that is not there is empty.
+  // Arrays. A missing one is empty.
   std::size_t size() const;
   GltfValue at(std::size_t index) const;
 
-  // Plain values; without a fallback they must be there.
+  // Plain values; without a fallback they must exist.
   std::string text(const std::string& fallback) const;
   bool truth(bool fallback) const;
   double number() const;  // finite

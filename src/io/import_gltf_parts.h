@@ -37,7 +37,7 @@ class GltfFile {
   // What "data:…" holds; nothing for other texts.
   static std::optional<std::vector<std::byte>> data_of_uri(const GltfValue& uri);
 
-  // To be asked before memory is taken that the file's own size does not bound (compressed or absent data).
+  // To be called before memory is allocated that the file's size does not limit (compressed or absent data).
   void spend(std::uint64_t bytes, const GltfValue& for_what);
 
  private:
@@ -66,7 +66,7 @@ GltfArray read_gltf_accessor(GltfFile& file, const GltfValue& at,
 // Divides integers of that accessor into 0…1 or −1…1 (glTF 2.0, 3.11); 1 for floats.
 double gltf_normaliser(const GltfValue& component_type);
 
-// Which of a vertex's uv sets a texture takes, and how its uvs come from them (KHR_texture_transform).
+// The uv set of a texture, and the transform of its uv (KHR_texture_transform).
 struct GltfUvs {
   std::size_t set = 0;
   glm::dmat3 transform{1};
@@ -92,7 +92,8 @@ GltfPrimitive read_gltf_draco(GltfFile& file, const GltfValue& primitive, const 
 std::vector<Mesh> read_gltf_mesh(GltfFile& file, std::size_t id, int skin, int holder,
                                  const std::vector<int>& nodes, const std::vector<GltfLook>& looks);
 
-// Nodes under one that holds `world`, and what they show: meshes and cameras. The file's nodes → the model's.
+// Adds the nodes below a root node with the matrix `world`, with their meshes and cameras. Returns the file's
+// nodes → the model's.
 std::vector<int> read_gltf_nodes(GltfFile& file, const glm::dmat4& world, const std::vector<GltfLook>& looks,
                                  Model& model);
 

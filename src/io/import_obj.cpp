@@ -45,7 +45,7 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
         material->base_colour = {linear(colour), material->base_colour.a};
     } else if ((key == "d" || key == "Tr") && words >> value) {
       const float alpha = key == "d" ? value : 1 - value;
-      // Some writers mean 0 by Tr and d alike; a material that nobody could see is not what they meant.
+      // Some writers use 0 for Tr and d alike; an invisible material is not what they mean.
       material->base_colour.a = alpha > 0 && alpha <= 1 ? alpha : 1;
       material->alpha = material->base_colour.a < 1 ? Material::Alpha::blend : Material::Alpha::opaque;
     } else if (key == "map_Kd") {

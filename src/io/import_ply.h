@@ -1,5 +1,5 @@
-// Models of PLY files. Our own reader (ply.h), because a sequence lives from every vertex keeping its number,
-// and assimp 5.2.5 crashes on damaged files of this kind.
+// Models of PLY files. Our own reader (ply.h), because in a sequence every vertex must keep its number, and
+// assimp 5.2.5 crashes on damaged files of this kind.
 #pragma once
 
 #include <filesystem>

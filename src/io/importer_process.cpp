@@ -32,7 +32,7 @@ void write_all(const void* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(importer_pipe, from, size);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // nobody listens any more
+    if (written <= 0) ::_exit(1);  // the reading process has ended
     from += written;
     size -= static_cast<std::size_t>(written);
   }

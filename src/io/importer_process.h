@@ -1,4 +1,5 @@
-// What the two halves of an isolated import agree on (io/isolated_import.cpp, io/importer_process.cpp).
+// The protocol between the two processes of an isolated import (io/isolated_import.cpp,
+// io/importer_process.cpp).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ inline constexpr const char* importer_name = "plisse-importer";  // argv[0] of t
 inline constexpr int importer_file = 3;                          // holds the order, then the model
 inline constexpr int importer_pipe = 4;                          // messages to the caller
 
-// In front of its key and its text.
+// Precedes its key and its text.
 struct ImporterMessage {
   enum Kind : std::uint32_t { reader, warning, error, out_of_memory, done };
   Kind kind = reader;
@@ -27,6 +28,6 @@ struct ImportOrder {
 
 // The order as text and back, for importer_file.
 std::string order_text(const std::filesystem::path& path, const ImportOptions& options);
-ImportOrder order_of(std::string_view text);  // throws std::exception where it is none
+ImportOrder order_of(std::string_view text);  // throws std::exception where the text is invalid
 
 }  // namespace plisse::io

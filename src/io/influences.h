@@ -1,4 +1,4 @@
-// Bone weights of a vertex as files have them, cut down to what io::Mesh keeps.
+// Bone weights of a vertex from files, reduced to those of io::Mesh.
 #pragma once
 
 #include <cstdint>

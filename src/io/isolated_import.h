@@ -1,6 +1,5 @@
-// Reading a model in a process of its own, so that no file can take the caller down: a crash, a hang or a
-// runaway of a reader is an Error of the caller's. How, and why so, stands at the head of
-// isolated_import.cpp.
+// Reads a model in a separate process, so that no file can crash the caller: a crash, an endless loop or too
+// much memory in a reader becomes an Error of the caller. isolated_import.cpp explains how and why.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +9,9 @@
 
 namespace plisse::io {
 
-// What read_model would return, from a child process within options.limits of time and memory. Throws
-// Error(bad_input) with the reader's own words, or what became of the child. Warnings of the child are this
-// process's. Safe with other threads at work.
+// The result of read_model, from a child process within options.limits of time and memory. Throws
+// Error(bad_input) with the reader's own message, or with the way in which the child ended. Warnings of the
+// child are printed by this process. Safe with other threads at work.
 Model isolated_import(const std::filesystem::path& path, const ImportOptions& options);
 
 }  // namespace plisse::io

@@ -9,7 +9,7 @@
 
 namespace plisse::io {
 
-// Places, normals and texture coordinates by their own numbers, as OBJ has them. Metres, y up, right-handed;
+// Positions, normals and texture coordinates with separate indices, as in OBJ. Metres, y up, right-handed;
 // v upward.
 struct MeshFile {
   struct Vertex {

@@ -1,5 +1,5 @@
-// What a reader hands over: one model file (or a numbered sequence) as plain data, before welding and posing.
-// Every reader fills this and nothing else, and `validate` looks at it afterwards, whichever reader it was.
+// The result of a reader: one model file (or a numbered sequence) as plain data, before welding and posing.
+// Every reader fills only this, and `validate` checks it afterwards.
 //
 // Units: the world that nodes place meshes in is metres, y up, right-handed: readers put the file's unit and
 // up axis into a node above its roots (or into the positions, where the file has no nodes). A mesh's own

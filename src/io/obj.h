@@ -1,7 +1,7 @@
 // Wavefront OBJ (B1 appendix of the Advanced Visualizer's manual) as plain data. The one reader and the one
 // writer: models, sequences, wrinkle fields, set-ups and the curves of panels all go through them. Our own
-// reader, because a sequence lives from every vertex keeping its number over the frames, which general
-// importers do not promise.
+// reader, because in a sequence every vertex must keep its number in all frames, which general importers do
+// not guarantee.
 #pragma once
 
 #include <array>
@@ -14,8 +14,7 @@
 
 namespace plisse::io {
 
-// As it stands in the file: v, f, o, g, usemtl, mtllib, and of vt, vn, l what is wanted; other lines are
-// passed over.
+// The contents of the file: v, f, o, g, usemtl, mtllib, and vt, vn, l if wanted; other lines are ignored.
 struct ObjFile {
   struct Corner {
     std::int32_t position = -1, uv = -1, normal = -1;  // from 0; −1 not given
@@ -39,14 +38,14 @@ struct ObjFile {
   std::vector<std::array<std::uint32_t, 3>> faces() const;  // the positions that the triangles join
 };
 
-// What is wanted besides positions and faces. The rest is passed over, however damaged.
+// The data to read besides positions and faces. Other data is ignored, even if it is damaged.
 struct ObjWanted {
   bool uvs_and_normals = false, lines = false;
   bool polygons = true;  // false: a face of more than three corners is an error
 };
 
 // Throws Error(bad_input) with file:line for numbers that cannot be read or are not finite, faces with fewer
-// than three corners, lines with fewer than two, and indices that point nowhere.
+// than three corners, lines with fewer than two, and indices out of range.
 ObjFile read_obj(const std::filesystem::path& path, const ObjWanted& wanted = {});
 
 // The text of an OBJ or MTL file, where a backslash at the end of a line continues it: such a line is one

@@ -60,11 +60,11 @@ struct Ply {
   std::vector<std::array<std::uint32_t, 3>> triangles(Polygons polygons) const;
 };
 
-// ASCII or binary of either byte order, version 1.0. Of properties of other names than `wanted`, the values
-// are passed over, whatever they are; all are wanted where that is empty. Lists may be counted in any type,
-// as long as the counts are whole numbers. Throws Error(bad_input): no PLY, a header that makes no sense or
-// promises more than the file holds, a text that is no number, a wanted value that is not finite; with file
-// and line, or element and item.
+// ASCII or binary of either byte order, version 1.0. Values of properties whose names are not in `wanted` are
+// ignored, whatever they are; if it is empty all are read. The count of a list may have any type, but must be
+// a whole number. Throws Error(bad_input): no PLY, a header that is invalid or declares more than the file
+// contains, a text that is no number, a wanted value that is not finite; with file and line, or element and
+// item.
 Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted = {});
 Ply parse_ply(std::string_view bytes, const std::string& file,
               const std::vector<std::string_view>& wanted = {});

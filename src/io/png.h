@@ -23,8 +23,8 @@ struct PngOptions {
 // for an image without pixels, of more than 16384 a side, or whose size does not fit its data.
 std::vector<std::uint8_t> encode_png(const Image& image, const PngOptions& options = {});
 
-// What encode_png makes of the same pixels with this hash, from what it made without one: a picture that
-// stays is compressed once.
+// The result of encode_png for the same pixels with this hash, from its result without one: an unchanged
+// picture is compressed only once.
 std::vector<std::uint8_t> with_hash(const std::vector<std::uint8_t>& png, const std::string& hash);
 
 // The same as encode_png into a file, beside its final name first; throws Error(no_output).

@@ -48,7 +48,7 @@ TEST(SizingScenes, TheSheetIsMeshedWithTheEdgesAskedFor) {
 }
 
 // The equilibrium does not remember where the start changed from one wave to the other; and it is where
-// Vandeparre et al.'s law for light sheets has it, whose prefactor of order 1 nobody prints.
+// Vandeparre et al.'s law for light sheets gives it, with a prefactor of order 1 that is not published.
 TEST(SizingScenesSlow, TheCurtainFindsItsOwnTransition) {
   Curtain curtain;
   curtain.height = 0.1;

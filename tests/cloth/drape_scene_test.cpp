@@ -35,7 +35,7 @@ TEST(DrapeScene, SetUpsAreSewnAsCurMeshSays) {
   EXPECT_TRUE(x.isApprox((Eigen::Matrix<double, 1, 6>() << 0, 1.1, 1.1, 0, 2, 2).finished())) << x;
 }
 
-// Bending stiffness and stiffness against stretching are the fabric's, whatever it tells of its thickness.
+// Bending and stretching stiffness are the fabric's, with or without a thickness.
 TEST(DrapeScene, FabricsBecomePlates) {
   for (const sizing::Fabric& fabric : sizing::fabrics()) {
     const cloth::FabricMaterial made = cloth::material_of(fabric, {}, {});

@@ -1,4 +1,4 @@
-// Fields that somebody else solved, evaluated: on which faces their phases have to close.
+// Evaluation of fields from another program: the faces on which their phases have to be closed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -77,7 +77,7 @@ TEST(PlyFile, ComesBackAsWritten) {
   EXPECT_THAT(test::names_in(folder.path()), ElementsAre("a.ply"));
 }
 
-// What nobody asks for may be anything, as long as it can be passed over.
+// Data that is not requested may have any value, as long as it can be skipped.
 TEST(PlyFile, OnlyWhatIsWantedHasToBeFinite) {
   const std::string text = header + "0.5 nan\n-1 7\n3 0 1 1\n";
   EXPECT_THAT(complaint(text), HasSubstr("vertex 0, 'red': the value is not finite"));

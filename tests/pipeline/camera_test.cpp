@@ -1,4 +1,4 @@
-// The camera that nobody asked for: it sees the whole of the model, whatever its shape.
+// The default camera: the whole model is in the picture, for any shape.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -240,7 +240,7 @@ TEST(ShellObstacle, BodiesMustBeClosed) {
   EXPECT_NE(plisse::test::error_of([&] { body_of(mesh); }), "");
 }
 
-// Cloth beside a body that comes on: what touched it still does, what was near is not caught up.
+// Cloth beside a moving body: vertices in contact stay in contact, and the body overtakes no near ones.
 TEST(ShellObstacle, ClothGoesWithABodyThatMoves) {
   test::Mesh cloth = test::grid(20, 20, 1, 1);
   cloth.positions.colwise() -= Vector3d(0.5, 0.5, 0);

@@ -30,7 +30,7 @@ TEST(ShellTopology, EulerAndComponents) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.cols());
   mesh.faces.push_back({first, first + 1, first + 2});  // a triangle apart; vertex first + 3 has no face
   const Topology t = build_topology(mesh.faces, first + 4);
-  // Two discs and a point nobody uses: V − E + F = 2.
+  // Two discs and an unused point: V − E + F = 2.
   EXPECT_EQ(
       static_cast<long>(first) + 3 - static_cast<long>(t.edges.size()) + static_cast<long>(t.faces.size()),
       2);

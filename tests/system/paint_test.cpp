@@ -72,7 +72,7 @@ TEST_F(Paint, StrokesAndTheirFilesMakeTheSameFrames) {
               io::load_image(folder / ("bare.toml_frames/" + name)).rgba);
   }
 
-  // Verify holds the bias against the reference, and notices a thousandth.
+  // Verify compares the bias with the reference, and detects a thousandth.
   const std::string strokes_scene = (folder / "strokes.toml").string(),
                     shaders = (folder / "shaders").string();
   EXPECT_EQ(plisse({"verify", strokes_scene, "-q"}).code, 0);
