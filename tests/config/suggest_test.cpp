@@ -26,6 +26,18 @@ TEST(Nearest, IsSilentWhereNothingIsNear) {
   EXPECT_EQ(config::nearest("wavelength", {}), "");
 }
 
+// A third of the longer word's letters may differ, but never all of it; one may in any case.
+TEST(Nearest, StopsAtAThirdOfTheLetters) {
+  EXPECT_EQ(config::nearest("wavxxxngth", names), "wavelength");  // 3 of 10
+  EXPECT_EQ(config::nearest("waxxxxngth", names), "");            // 4 of 10
+  EXPECT_EQ(config::nearest("profyyy", names), "");               // 3 of 7
+  EXPECT_EQ(config::nearest("profiyy", names), "profile");        // 2 of 7
+  EXPECT_EQ(config::nearest("wavelen", names), "wavelength");     // 3 of the longer word's 10
+  EXPECT_EQ(config::nearest("wavele", names), "");                // 4 of 10
+  EXPECT_EQ(config::nearest("ux", names), "up");                  // 1 of 2
+  EXPECT_EQ(config::nearest("xy", names), "");                    // 2 of 2
+}
+
 TEST(Nearest, PrefersTheNearerAndOnTiesTheFirst) {
   const std::vector<std::string> rows = {"abcde", "abcdf", "abcxx"};
   EXPECT_EQ(config::nearest("abcdf", rows), "abcdf");
