@@ -1,6 +1,6 @@
 // Limits for one model file. Damaged and hostile files may contain counts of billions; with a limit they give
 // an error that names the limit, and do not fill the machine's memory. The keys of [limits] in a scene
-// (src/config/keys.cpp) set them.
+// (src/config/settings.h) set them.
 #pragma once
 
 #include <cstdint>

@@ -13,6 +13,7 @@ class Complaints {
   explicit Complaints(const std::filesystem::path& file) : file_(file.string()) {}
 
   void add(const toml::source_position& at, const std::string& text);
+  std::size_t count() const { return lines_.size(); }
   // Error(bad_input) with one "file:line:column: text" a line, in the file's order.
   void throw_if_any();
 

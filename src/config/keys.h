@@ -1,12 +1,13 @@
-// The one table of all keys that a scene file has. The parser, docs/scene.md, the scene that `init` writes
-// and the command line's options are all made from it.
+// All keys that a scene file has, in the order of its documents: the rows of config/settings.h. The parser,
+// docs/scene.md, the scene that `init` writes and the command line's options are all made from them.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "config/kinds.h"
+#include "config/key.h"
+#include "config/settings.h"
 
 namespace plisse::config {
 
@@ -15,17 +16,12 @@ struct Table {
   std::string doc;
 };
 
-struct Key {
-  std::string table, name;
-  Kind kind;
-  std::string doc;                // one sentence; a line break starts a new line of a scene's comment
-  std::string option = {};        // the option of the command line that overrides it, where there is one
-  std::string option_value = {};  // as --help names its value
-};
+using SceneKey = Key<SceneSettings>;
 
 const std::vector<Table>& tables();
-const std::vector<Key>& keys();
+const Keys<SceneSettings>& keys();
+Keys<SceneSettings> keys_of(std::string_view table);
 
-const Key* find_key(std::string_view table, std::string_view name);
+const SceneKey* find_key(std::string_view table, std::string_view name);
 
 }  // namespace plisse::config

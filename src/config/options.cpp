@@ -10,13 +10,11 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "config/given.h"
 #include "config/keys.h"
 
 namespace plisse::config {
 namespace {
-
-using config::Key;
-using config::Problem;
 
 constexpr std::string_view camera_forms =
     "a camera of the model (name or index), \"azimuth,elevation[,focal]\" in degrees and mm, or "
@@ -47,32 +45,32 @@ std::unique_ptr<toml::node> as_toml(const std::string& text, bool textual) {
   return std::make_unique<toml::value<std::string>>(text);
 }
 
-bool takes_several(const Key& key) {
-  return key.kind.type == "names";
+bool takes_several(const KeyText& key) {
+  return key.type == "names";
 }
 
 void expect_one(const std::vector<std::string>& texts) {
-  if (texts.size() > 1) throw Problem{fmt::format("given {} times", texts.size()), ""};
+  if (texts.size() > 1) throw Problem{fmt::format("given {} times", texts.size())};
 }
 
-void set(SceneSettings& scene, const Key& key, const std::vector<std::string>& texts) {
+void set(SceneSettings& scene, const SceneKey& key, const std::vector<std::string>& texts) {
   if (!takes_several(key)) expect_one(texts);
   if (texts.size() == 1) {
-    key.kind.set(scene, *as_toml(texts.front(), key.kind.textual), {});
+    key.set(scene, Given{*as_toml(texts.front(), key.textual)});
     return;
   }
   toml::array array;
   for (const std::string& text : texts) array.push_back(text);
-  key.kind.set(scene, array, {});
+  key.set(scene, Given{array});
 }
 
 // Sets one key of [camera] and says which part of the option was wrong.
 void set_camera(SceneSettings& scene, std::string_view name, const toml::node& value) {
-  const Key& key = *config::find_key("camera", name);
+  const SceneKey& key = *config::find_key("camera", name);
   try {
-    key.kind.set(scene, value, {});
+    key.set(scene, Given{value});
   } catch (const Problem& problem) {
-    throw Problem{fmt::format("{}: {}, not {}", name, problem.what, key.kind.allowed), problem.hint};
+    throw Problem{fmt::format("{}: {}, not {}", name, problem.what, key.allowed), problem.hint};
   }
 }
 
@@ -83,7 +81,7 @@ void set_eye_and_target(SceneSettings& scene, const std::string& text) {
     const std::string name = part.substr(0, equals);
     bool* const seen = name == "eye" ? &eye : name == "target" ? &target : nullptr;
     if (!seen || *seen || equals == std::string::npos) {
-      throw Problem{fmt::format("'{}' is neither one eye nor one target", part), ""};
+      throw Problem{fmt::format("'{}' is neither one eye nor one target", part)};
     }
     *seen = true;
     toml::array point;
@@ -96,8 +94,8 @@ void set_eye_and_target(SceneSettings& scene, const std::string& text) {
     }
     set_camera(scene, name, point);
   }
-  if (!eye || !target) throw Problem{fmt::format("the {} is missing", eye ? "target" : "eye"), ""};
-  if (scene.camera.eye == scene.camera.target) throw Problem{"eye and target are the same point", ""};
+  if (!eye || !target) throw Problem{fmt::format("the {} is missing", eye ? "target" : "eye")};
+  if (scene.camera.eye == scene.camera.target) throw Problem{"eye and target are the same point"};
   scene.camera.name.clear();
   scene.camera.explicit_pose = true;
 }
@@ -110,14 +108,14 @@ void set_camera_option(SceneSettings& scene, const std::string& text) {
   }
   const std::size_t parts = split(text, ',').size();
   if (parts > 1 && numbers.size() == parts) {
-    if (parts > 3) throw Problem{fmt::format("{} numbers are too many", parts), ""};
+    if (parts > 3) throw Problem{fmt::format("{} numbers are too many", parts)};
     constexpr std::string_view names[] = {"azimuth", "elevation", "focal_length"};
     for (std::size_t i = 0; i < parts; ++i) set_camera(scene, names[i], toml::value<double>{numbers[i]});
     scene.camera.name.clear();
     scene.camera.explicit_pose = false;
     return;
   }
-  if (text.empty()) throw Problem{"the name is empty", ""};
+  if (text.empty()) throw Problem{"the name is empty"};
   set_camera(scene, "name", toml::value<std::string>{text});
   scene.camera.explicit_pose = false;
 }
@@ -128,17 +126,17 @@ const std::vector<SceneOption>& scene_options() {
   static const std::vector<SceneOption> all = [] {
     std::vector<SceneOption> options;
     bool camera = false;
-    for (const Key& key : config::keys()) {
+    for (const SceneKey& key : config::keys()) {
       if (key.table == "camera" && !std::exchange(camera, true)) {
         options.push_back({"--camera", "CAMERA", fmt::format("The view: {}.", camera_forms), key.table});
       }
-      if (key.option.empty()) continue;
+      if (key.extras.option.empty()) continue;
       const bool told =
-          key.option_value.find('|') != std::string::npos;  // the value's name says what is allowed
+          key.extras.option_value.find('|') != std::string::npos;  // the value's name says what is allowed
       const std::string help = takes_several(key) ? key.doc + " May be given several times."
                                : told             ? key.doc
-                                                  : fmt::format("{} Allowed: {}.", key.doc, key.kind.allowed);
-      options.push_back({key.option, key.option_value, help, key.table});
+                                                  : fmt::format("{} Allowed: {}.", key.doc, key.allowed);
+      options.push_back({key.extras.option, key.extras.option_value, help, key.table});
     }
     return options;
   }();
@@ -161,12 +159,12 @@ void apply_options(SceneSettings& scene, const GivenOptions& options) {
       }
       continue;
     }
-    for (const Key& key : config::keys()) {
-      if (key.option != option) continue;
+    for (const SceneKey& key : config::keys()) {
+      if (key.extras.option != option) continue;
       try {
         set(scene, key, texts);
       } catch (const Problem& problem) {
-        complain(option, problem, key.kind.allowed);
+        complain(option, problem, key.allowed);
       }
     }
   }

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "config/paint_settings.h"
 
@@ -15,11 +14,6 @@ namespace plisse::config {
 PaintSettings load_paint(const std::filesystem::path& file);
 PaintSettings parse_paint(std::string_view text, const std::filesystem::path& file);
 
-// Every key, for docs/paint.md: where it may stand and what it takes.
-struct PaintKey {
-  std::string name, kinds, allowed, doc;
-};
-std::vector<PaintKey> paint_keys();
 std::string paint_reference_markdown();  // the tables of docs/paint.md
 
 }  // namespace plisse::config

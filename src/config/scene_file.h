@@ -1,5 +1,5 @@
 // Scene files (TOML): reads them into checked settings, writes a commented one, and documents their keys. All
-// of it comes from the one table in config/keys.cpp.
+// of it comes from the rows of config/settings.h.
 #pragma once
 
 #include <filesystem>

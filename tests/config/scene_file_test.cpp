@@ -305,9 +305,9 @@ TEST_F(SceneFile, MissingSceneIsBadInput) {
 // Every value of the settings, as text, in the order of the table.
 std::vector<std::string> values(const config::SceneSettings& scene) {
   std::vector<std::string> all;
-  for (const config::Key& key : config::keys()) {
+  for (const config::SceneKey& key : config::keys()) {
     if (key.table != "model" || key.name != "path")
-      all.push_back(key.table + "." + key.name + "=" + key.kind.show(scene));
+      all.push_back(key.table + "." + key.name + "=" + key.show(scene));
   }
   return all;
 }
@@ -391,7 +391,7 @@ TEST_F(SceneFile, UncommentingAKeyOfInitChangesNothing) {
   std::string text = config::scene_text("model.glb");
   // "#key = value" is a key, "# words" a comment.
   text = std::regex_replace(text, std::regex("(^|\n)#([a-z_]+ = )"), "$1$2");
-  for (const config::Key& key : config::keys()) {
+  for (const config::SceneKey& key : config::keys()) {
     EXPECT_THAT(text, HasSubstr("\n" + key.name + " = ")) << key.table;
   }
   expect_defaults(parse(text));
@@ -413,10 +413,10 @@ TEST_F(SceneFile, ShowAndSetAreInverse) {
   scene.output.width = 17;
   scene.output.transparent = true;
   std::string text, table;
-  for (const config::Key& key : config::keys()) {
+  for (const config::SceneKey& key : config::keys()) {
     const bool path = key.name == "path";
     if (std::exchange(table, key.table) != key.table) text += "[" + key.table + "]\n";
-    if (!path) text += key.name + " = " + key.kind.show(scene) + "\n";
+    if (!path) text += key.name + " = " + key.show(scene) + "\n";
     if (path && key.table == "model") text += "path = \"model.glb\"\n";
   }
   config::SceneSettings back = parse(text);
@@ -467,16 +467,16 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"cache", "\"walk.mdd\""},
                                                      {"memory_mib", "100"},
                                                      {"path", "\"x\""}};
-  for (const config::Key& key : config::keys()) {
+  for (const config::SceneKey& key : config::keys()) {
     if (key.table == "model" && key.name == "path") continue;
     if (key.name == "eye" || key.name == "target") continue;  // only together: ReadsEveryKindOfValue
     // Not beside a path: GarmentsStandInPlaceOfAPath.
     if (key.name == "garment" || key.name == "pieces" || key.name == "fabric") continue;
     std::string value = "0.375";  // the default of none
-    if (key.kind.type == "whole number") value = "7";
-    if (key.kind.type == "colour") value = "[0, 0.5, 0]";
-    if (key.kind.type == "truth value") value = "true";
-    if (key.kind.type.starts_with("number, ")) value = "11";
+    if (key.type == "whole number") value = "7";
+    if (key.type == "colour") value = "[0, 0.5, 0]";
+    if (key.type == "truth value") value = "true";
+    if (key.type.starts_with("number, ")) value = "11";
     if (const auto other = others.find(key.name); other != others.end()) value = other->second;
     const std::string table = key.table == "model" ? "" : "[" + key.table + "]\n";
     const auto before = values(parse_after_model("")),
@@ -497,7 +497,7 @@ TEST_F(SceneFile, ReferenceIsWhatTheTableSays) {
 
 TEST_F(SceneFile, ReferenceHasEveryKey) {
   const std::string file = test::read_text(test::source_file("docs/scene.md"));
-  for (const config::Key& key : config::keys()) {
+  for (const config::SceneKey& key : config::keys()) {
     const auto section = file.find("## [" + key.table + "]");
     ASSERT_NE(section, std::string::npos) << key.table;
     const auto next = file.find("\n## ", section);
