@@ -11,9 +11,12 @@ namespace {
 std::atomic<int> first_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
-extern "C" void note_signal(int number) {
+// static: no symbol outside of namespace plisse.
+extern "C" {
+static void note_signal(int number) {
   int none = 0;
   if (!first_signal.compare_exchange_strong(none, number)) _exit(128 + number);
+}
 }
 
 }  // namespace

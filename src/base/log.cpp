@@ -5,11 +5,22 @@
 
 #include <mutex>
 #include <set>
+#include <utility>
 
+#include "base/message_scope.h"
 #include "base/progress.h"
 
 namespace plisse::log {
+
+struct Receiver {
+  Sink sink;
+  std::mutex mutex;  // one message at a time
+  std::set<std::string> said;
+};
+
 namespace {
+
+thread_local std::shared_ptr<Receiver> current_receiver;
 
 spdlog::logger& logger() {
   static auto instance = [] {
@@ -22,18 +33,46 @@ spdlog::logger& logger() {
   return *instance;
 }
 
-void say(spdlog::level::level_enum level, std::string_view text) {
+void print(spdlog::level::level_enum level, std::string_view text) {
   if (!logger().should_log(level)) return;
   Progress::wipe();
   logger().log(level, "{}", text);
 }
 
-WarningReceiver& receiver() {
+void print_warning(std::string_view text) {
+  print(spdlog::level::warn, fmt::format("warning: {}", text));
+}
+
+WarningReceiver& redirected() {
   static WarningReceiver instance;
   return instance;
 }
 
+// Whether a scope of this thread takes the message.
+bool heard(Kind kind, std::string_view text, const std::string* key = nullptr) {
+  if (!current_receiver) return false;
+  Receiver& receiver = *current_receiver;
+  std::lock_guard lock(receiver.mutex);
+  if (receiver.sink && (!key || receiver.said.insert(*key).second)) receiver.sink(kind, text);
+  return true;
+}
+
 }  // namespace
+
+Scope::Scope(Sink sink) : Scope(std::make_shared<Receiver>()) {
+  current_receiver->sink = std::move(sink);
+}
+
+Scope::Scope(std::shared_ptr<Receiver> receiver)
+    : before_(std::exchange(current_receiver, std::move(receiver))) {}
+
+Scope::~Scope() {
+  current_receiver = std::move(before_);
+}
+
+std::shared_ptr<Receiver> Scope::current() {
+  return current_receiver;
+}
 
 void set_level(Level level) {
   logger().set_level(level == Level::quiet     ? spdlog::level::err
@@ -42,29 +81,31 @@ void set_level(Level level) {
 }
 
 void info(std::string_view text) {
-  say(spdlog::level::debug, text);
+  if (!heard(Kind::info, text)) print(spdlog::level::debug, text);
 }
 void notice(std::string_view text) {
-  say(spdlog::level::info, text);
+  if (!heard(Kind::notice, text)) print(spdlog::level::info, text);
 }
 void warn(std::string_view text) {
-  if (receiver()) return receiver()("", text);
-  say(spdlog::level::warn, fmt::format("warning: {}", text));
+  if (heard(Kind::warning, text)) return;
+  if (redirected()) return redirected()("", text);
+  print_warning(text);
 }
 
 void warn_once(const std::string& key, std::string_view text) {
+  if (heard(Kind::warning, text, &key)) return;
   static std::mutex mutex;
   static std::set<std::string> said;
   {
     std::lock_guard lock(mutex);
     if (!said.insert(key).second) return;
   }
-  if (receiver()) return receiver()(key, text);
-  warn(text);
+  if (redirected()) return redirected()(key, text);
+  print_warning(text);
 }
 
 void redirect_warnings(WarningReceiver to) {
-  receiver() = std::move(to);
+  redirected() = std::move(to);
 }
 
 }  // namespace plisse::log

@@ -19,7 +19,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/log.h"
+#include "base/message_scope.h"
 #include "config/frames.h"
 #include "config/settings.h"
 #include "gpu/shader_source.h"
@@ -181,8 +181,8 @@ class Run {
 
 // Loads the scene and the driver at the same time: a separate process reads the model.
 void Run::load() {
-  auto loading =
-      std::async(std::launch::async, [&] { return std::make_unique<LoadedScene>(request_.scene); });
+  auto loading = std::async(
+      std::launch::async, log::in_this_scope([&] { return std::make_unique<LoadedScene>(request_.scene); }));
   try {
     context_.emplace(request_.device);
   } catch (const Error&) {

@@ -10,9 +10,21 @@
 #include <queue>
 #include <set>
 
-#define STB_PERLIN_IMPLEMENTATION
+// Without these its functions would be symbols of the library, and clash with those of a user who has it too:
+// what is declared static once stays so.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+extern "C" {
+static float stb_perlin_noise3(float, float, float, int, int, int);
+static float stb_perlin_noise3_seed(float, float, float, int, int, int, int);
+static float stb_perlin_ridge_noise3(float, float, float, float, float, float, int);
+static float stb_perlin_fbm_noise3(float, float, float, float, float, int);
+static float stb_perlin_turbulence_noise3(float, float, float, float, float, int);
+static float stb_perlin_noise3_wrap_nonpow2(float, float, float, int, int, int, unsigned char);
+}
+static float stb_perlin_noise3_internal(float, float, float, int, int, int, unsigned char);
+#define STB_PERLIN_IMPLEMENTATION
 #include <stb_perlin.h>
 #pragma GCC diagnostic pop
 

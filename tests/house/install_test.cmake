@@ -1,5 +1,5 @@
 # Installs BUILD into a fresh folder WORK and uses it from there: the program says its version, and a project of its
-# own finds, links and runs the library.
+# own (tests/examples/) finds, links and runs the library.
 #
 #   cmake -DBUILD=… -DSOURCE=… -DWORK=… -DVERSION=… -DCOMPILER=… -DGENERATOR=… -P tests/house/install_test.cmake
 function(run)
@@ -13,13 +13,20 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-foreach(file bin/plisse include/plisse/pipeline.h include/plisse/io/model.h include/plisse/base/version.h)
-  if(NOT EXISTS ${WORK}/prefix/${file})
-    message(FATAL_ERROR "${file} was not installed")
-  endif()
-endforeach()
-if(EXISTS ${WORK}/prefix/include/plisse/cli)
-  message(FATAL_ERROR "headers of cli/ were installed; they are no part of the library")
+# The public headers are installed, and no other.
+set(HEADERS error measure mesh version)
+file(GLOB_RECURSE installed RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/*)
+list(SORT installed)
+list(TRANSFORM HEADERS PREPEND plisse/ OUTPUT_VARIABLE wanted)
+list(TRANSFORM wanted APPEND .h)
+if(NOT installed STREQUAL wanted)
+  message(FATAL_ERROR "the headers that were installed are\n${installed}\nand not\n${wanted}")
+endif()
+file(GLOB examples RELATIVE ${SOURCE}/tests/examples ${SOURCE}/tests/examples/*.cpp)
+list(SORT examples)
+list(TRANSFORM HEADERS APPEND .cpp OUTPUT_VARIABLE wanted)
+if(NOT examples STREQUAL wanted)
+  message(FATAL_ERROR "tests/examples/ has\n${examples}\nand not one example a public header\n${wanted}")
 endif()
 
 run(${WORK}/prefix/bin/plisse --version)
@@ -36,9 +43,29 @@ foreach(file ${package})
   endif()
 endforeach()
 
-run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE}/tests/house/consumer -B ${WORK}/consumer
-  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER})
-run(${CMAKE_COMMAND} --build ${WORK}/consumer)
-run(${WORK}/consumer/consumer)
-message("${output}")
+# Users have headers of their own, of any name: for each of ours in src/ there is one here, in front of all others,
+# which no public header may take for ours.
+file(GLOB_RECURSE internal RELATIVE ${SOURCE}/src ${SOURCE}/src/*.h)
+foreach(header ${internal})
+  file(WRITE ${WORK}/own/${header} "#error \"a public header of plisse took the user's own ${header} for plisse's\"\n")
+endforeach()
+
+# The example of the README is one more.
+file(COPY ${SOURCE}/tests/examples/ DESTINATION ${WORK}/source)
+file(READ ${SOURCE}/README.md readme)
+if(NOT readme MATCHES "```cpp\n([^`]*)```")
+  message(FATAL_ERROR "README.md has no example in C++")
+endif()
+file(WRITE ${WORK}/source/readme.cpp "${CMAKE_MATCH_1}")
+
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${WORK}/source -B ${WORK}/examples
+  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=${COMPILER}
+  "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror" -DEXAMPLES_OWN_INCLUDES=${WORK}/own)
+run(${CMAKE_COMMAND} --build ${WORK}/examples)
+file(READ ${WORK}/examples/examples.txt examples)
+file(COPY ${SOURCE}/assets DESTINATION ${WORK}/run)
+foreach(example ${examples})
+  run(${CMAKE_COMMAND} -E chdir ${WORK}/run ${WORK}/examples/${example})
+  message("${example}: ${output}")
+endforeach()
 file(REMOVE_RECURSE ${WORK})
