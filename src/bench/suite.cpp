@@ -16,7 +16,7 @@ config::SceneSettings Setup::scene(const std::string& name, int width, int heigh
 void Setup::save(SuiteReport& report, const std::string& name, const io::Image& image,
                  const std::string& caption) const {
   const std::string path = "pictures/" + name + ".png";
-  io::write_png(folder / path, image, {6, ""});
+  io::write_png(folder / path, image, {io::PngLevel::small, ""});
   report.pictures.push_back({path, caption});
 }
 

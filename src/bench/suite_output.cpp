@@ -92,11 +92,11 @@ void measure_samples(const Setup& setup, SuiteReport& report) {
   const io::Image picture = films[1]->picture();
   std::vector<std::size_t> bytes;
   std::vector<Case> levels;
-  for (const int level : {0, 1, 2, 3, 4, 6, 9, 12}) {
+  for (const io::PngLevel level : {io::PngLevel::stored, io::PngLevel::quick, io::PngLevel::small}) {
     const io::PngOptions options{level, ""};
     bytes.push_back(io::encode_png(picture, options).size());
-    levels.push_back(
-        {fmt::format("level {}", level), [&picture, options] { io::encode_png(picture, options); }});
+    levels.push_back({fmt::format("level {}", static_cast<int>(level)),
+                      [&picture, options] { io::encode_png(picture, options); }});
   }
   const auto encoded = take_turns(levels, setup.turns());
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -159,7 +159,7 @@ SizeReport size_panels(const SizeRequest& request) {
 
     const SizeScale scale(*sized);
     io::PngOptions small;
-    small.level = 6;  // once a panel, and smooth maps pack well
+    small.level = io::PngLevel::small;  // once a panel, and smooth maps pack well
     const auto path = [&](const char* suffix) {
       return report.files.emplace_back(request.folder / (panel.name + suffix));
     };

@@ -59,7 +59,7 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
   return rgb;
 }
 
-void check(const Image& image, const PngOptions& options) {
+void check(const Image& image) {
   const auto refuse = [](const std::string& what) { throw Error(ExitCode::no_output, "PNG: " + what); };
   if (image.width < 1 || image.height < 1 || image.width > max_image_side || image.height > max_image_side) {
     refuse(fmt::format("an image of {} × {} pixels cannot be written; 1 to {} a side are allowed",
@@ -70,9 +70,6 @@ void check(const Image& image, const PngOptions& options) {
   if (image.rgba.size() != expected) {
     refuse(fmt::format("{} bytes were given for {} × {} pixels, not {}", image.rgba.size(), image.width,
                        image.height, expected));
-  }
-  if (options.level < 0 || options.level > 12) {
-    refuse(fmt::format("compression level {} is not in 0 … 12", options.level));
   }
 }
 
@@ -125,10 +122,10 @@ std::vector<std::uint8_t> with_hash(const std::vector<std::uint8_t>& png, const 
 }
 
 std::vector<std::uint8_t> encode_png(const Image& image, const PngOptions& options) {
-  check(image, options);
-  const StbPng plain = opaque(image)
-                           ? stb_png(without_alpha(image), image.width, image.height, 3, options.level)
-                           : stb_png(image.rgba, image.width, image.height, 4, options.level);
+  check(image);
+  const int level = static_cast<int>(options.level);
+  const StbPng plain = opaque(image) ? stb_png(without_alpha(image), image.width, image.height, 3, level)
+                                     : stb_png(image.rgba, image.width, image.height, 4, level);
   if (!plain.bytes) throw std::bad_alloc();
 
   const std::uint8_t* begin = plain.bytes.get();
