@@ -172,10 +172,6 @@ void Rig::step_to_middle() {
   frame_ = (frame_ + subject_.palettes.size() - 1) % subject_.palettes.size();
 }
 
-void Rig::step_through_clip() {
-  for (std::size_t i = 0; i < subject_.palettes.size(); ++i) step();
-}
-
 passes::Look bare(passes::Look look) {
   look.shadows = look.ground = look.wireframe = false;
   return look;
@@ -184,15 +180,6 @@ passes::Look bare(passes::Look look) {
 void draw(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& target) {
   pass.draw(rig.surface(), subject.view, target, rig.software());
   finish();
-}
-
-std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffers& surface,
-                           const passes::View& view, const gpu::Target& float_target) {
-  pass.draw_aov(surface, view, float_target, passes::Aov::depth);
-  const auto pixels = float_target.read_rgba32f();
-  std::size_t count = 0;
-  for (std::size_t i = 3; i < pixels.size(); i += 4) count += pixels[i] > 0 ? 1 : 0;
-  return count;
 }
 
 void finish() {

@@ -55,7 +55,6 @@ class Rig {
   void relax(int rounds, bool onset);
   // Steps to the middle of the clip, where the project's models have most wrinkles.
   void step_to_middle();
-  void step_through_clip();
   // Resets to before the clip's first frame, without any state.
   void restart();
   // The next frame with these settings: crush and relax only every n-th frame.
@@ -80,9 +79,6 @@ class Rig {
 passes::Look bare(passes::Look look);
 // Draws and averages the samples, and waits for it.
 void draw(passes::RenderPass& pass, Rig& rig, const Subject& subject, const gpu::Target& target);
-// Pixels that the surface covers now.
-std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffers& surface,
-                           const passes::View& view, const gpu::Target& float_target);
 
 void finish();  // glFinish
 

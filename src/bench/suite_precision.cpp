@@ -1,12 +1,11 @@
-// Effect of single precision on the error, and of the implementation on the time, of each pass: shader, plain
-// C++ and the reference, all from the same state.
+// Effect of single precision on the error, and of the implementation on the time, of each pass: shader and
+// reference, both from the same state.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/colour.h"
 #include "bench/film.h"
-#include "bench/plain_cpp.h"
 #include "bench/suite.h"
 #include "io/flip.h"
 #include "pipeline/look.h"
@@ -130,7 +129,6 @@ class Precision {
   void crush() {
     const auto& reference = film_.reference;
     const pipeline::WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
-    PlainSurface plain(film_.rig.surface());
     const auto of_reference = [&] {
       return reference::crush(reference.topology, reference.rest_frames, before.positions, before.frames,
                               reference.wavelength, reference.mask, reference.crush, before.states,
@@ -139,13 +137,10 @@ class Precision {
     const auto expected = of_reference();
     film_.rig.crush();
     const pipeline::WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
-    const auto dead_zone = static_cast<float>(film_.subject.dead_zone);
-    bench::crush(plain, dead_zone, false);
-    RootMeanSquare shader, cpp;
+    RootMeanSquare error;
     for (std::size_t v = 0; v < expected.size(); ++v) {
       const double W = reference.wavelength[static_cast<Index>(v)];
-      shader.add((gpu.heights[static_cast<Index>(v)] - expected[v].height) / W);
-      cpp.add((static_cast<double>(plain.waves[v].height) - expected[v].height) / W);
+      error.add((gpu.heights[static_cast<Index>(v)] - expected[v].height) / W);
     }
     add("crush", "of a wavelength, in the height",
         {{"shader, float",
@@ -153,9 +148,7 @@ class Precision {
             film_.rig.crush();
             finish();
           },
-          shader.value()},
-         {"C++, float", [&] { bench::crush(plain, dead_zone, false); }, cpp.value()},
-         {"C++ on all cores, float", [&] { bench::crush(plain, dead_zone, true); }, cpp.value()},
+          error.value()},
          {"reference, double", of_reference, 0}});
   }
 
@@ -163,21 +156,15 @@ class Precision {
     film_.rig.relax(1, true);  // phases for new waves
     const auto& topology = film_.reference.topology;
     const pipeline::WaveSnapshot before = pipeline::read_snapshot(film_.rig.surface());
-    PlainSurface plain(film_.rig.surface());
     reference::WaveField field = before.field();
     for (int i = 0; i < rounds; ++i) reference::descent_round(topology, field, epsilon);
     film_.rig.relax(rounds, false);
     const pipeline::WaveSnapshot gpu = pipeline::read_snapshot(film_.rig.surface());
-    const auto of_plain = [&](bool threads) {
-      for (int i = 0; i < rounds; ++i) descend(plain, static_cast<float>(epsilon), threads);
-    };
-    of_plain(false);
-    RootMeanSquare shader, cpp;
+    RootMeanSquare error;
     for (Index v = 0; v < field.phases.size(); ++v) {
       const auto i = static_cast<std::size_t>(v);
       if (field.status[i] != reference::Status::set || !(field.weights[v] > 0)) continue;
-      shader.add(phase_difference(gpu.phases[v], field.phases[v]));
-      cpp.add(phase_difference(static_cast<double>(plain.phases[i].phase), field.phases[v]));
+      error.add(phase_difference(gpu.phases[v], field.phases[v]));
     }
     add("relax, a round", "radians after ten rounds",
         {{"shader, float",
@@ -185,9 +172,7 @@ class Precision {
             film_.rig.relax(rounds, false);
             finish();
           },
-          shader.value()},
-         {"C++, float", [&] { of_plain(false); }, cpp.value()},
-         {"C++ on all cores, float", [&] { of_plain(true); }, cpp.value()},
+          error.value()},
          {"reference, double",
           [&] {
             for (int i = 0; i < rounds; ++i) reference::descent_round(topology, field, epsilon);
@@ -233,13 +218,11 @@ class Precision {
 SuiteReport measure_precision(const Setup& setup) {
   SuiteReport report;
   report.name = "precision";
-  report.title = "Precision and place: shader, plain C++ and reference";
+  report.title = "Precision: shader and reference";
   report.note =
-      "Each pass from the same state: by the shader in single precision, by plain C++ in single precision, "
-      "and by the "
-      "reference in double precision, which is the truth (its own error is 0 by definition). Errors are root "
-      "mean squares "
-      "over vertices. The reference is written to be read, not to be quick.";
+      "Each pass from the same state: by the shader in single precision and by the reference in double "
+      "precision, which is the truth (its own error is 0 by definition). Errors are root mean squares over "
+      "vertices. The reference is written to be read, not to be quick.";
   Precision(setup, "sleeve", report).measure();
   if (setup.effort != Effort::smoke) Precision(setup, "model_b", report).measure();
   return report;

@@ -76,6 +76,15 @@ FilmWithFiles film_with_files(config::SceneSettings settings, const Effort& effo
   return result;
 }
 
+std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffers& surface,
+                           const passes::View& view, const gpu::Target& float_target) {
+  pass.draw_aov(surface, view, float_target, passes::Aov::depth);
+  const auto pixels = float_target.read_rgba32f();
+  std::size_t count = 0;
+  for (std::size_t i = 3; i < pixels.size(); i += 4) count += pixels[i] > 0 ? 1 : 0;
+  return count;
+}
+
 double average_covered_pixels(const config::SceneSettings& settings, const Effort& effort) {
   pipeline::LoadedScene scene(settings);
   gpu::StageTimer timer(true);

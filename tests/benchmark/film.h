@@ -23,6 +23,10 @@ struct FilmWithFiles {
 };
 FilmWithFiles film_with_files(config::SceneSettings settings, const Effort& effort);
 
+// Pixels that the surface covers now.
+std::size_t covered_pixels(passes::RenderPass& pass, const passes::SurfaceBuffers& surface,
+                           const passes::View& view, const gpu::Target& float_target);
+
 // Pixels that the surface covers, averaged over the clip. Needs a current context.
 double average_covered_pixels(const config::SceneSettings& settings, const Effort& effort);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "benchmark/effort.h"
+#include "benchmark/film.h"
 #include "benchmark/sections.h"
 #include "gpu/timer.h"
 

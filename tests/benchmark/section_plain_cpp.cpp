@@ -5,11 +5,11 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/log.h"
-#include "bench/plain_cpp.h"
 #include "benchmark/effort.h"
+#include "benchmark/plain_cpp.h"
 #include "benchmark/sections.h"
 
-namespace plisse::benchmark {
+namespace plisse::benchmarkmark {
 namespace {
 
 constexpr float dead_zone = 0.005F, epsilon = 13.2F;
@@ -124,4 +124,4 @@ void measure_plain_cpp(Report& report, const Effort& effort) {
   report.tables.push_back(table);
 }
 
-}  // namespace plisse::benchmark
+}  // namespace plisse::benchmarkmark

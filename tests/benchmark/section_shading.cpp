@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "benchmark/effort.h"
+#include "benchmark/film.h"
 #include "benchmark/sections.h"
 
 namespace plisse::benchmark {

@@ -1,4 +1,4 @@
-#include "bench/plain_cpp.h"
+#include "benchmark/plain_cpp.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-namespace plisse::bench {
+namespace plisse::benchmark {
 namespace {
 
 constexpr float two_pi = glm::two_pi<float>();
@@ -168,4 +168,4 @@ void descend(PlainSurface& surface, float epsilon, bool threads) {
   std::swap(surface.phases, surface.phases_next);
 }
 
-}  // namespace plisse::bench
+}  // namespace plisse::benchmark

@@ -9,7 +9,7 @@
 
 #include "passes/surface_buffers.h"
 
-namespace plisse::bench {
+namespace plisse::benchmark {
 
 struct PlainSurface {
   struct Constant {
@@ -52,4 +52,4 @@ void crush(PlainSurface& surface, float dead_zone, bool threads);
 // docs/passes.md, "Relax", descent (eq. 6): one round; reads phases, writes phases_next and swaps them.
 void descend(PlainSurface& surface, float epsilon, bool threads);
 
-}  // namespace plisse::bench
+}  // namespace plisse::benchmark
