@@ -32,10 +32,10 @@ bool RelaxPass::idle(const SurfaceBuffers& surface) {
 
 void RelaxPass::run(SurfaceBuffers& surface, const RelaxOptions& options) {
   bind(surface);
-  fresh_ = 0;
   if (options.onset) {
-    surface.counter.read(&fresh_, sizeof fresh_);
-    if (fresh_ > 0) {
+    std::uint32_t fresh = 0;
+    surface.counter.read(&fresh, sizeof fresh);
+    if (fresh > 0) {
       set_count(spread_, surface.vertex_count);
       for (int i = 0; i < options.onset_rounds; ++i) round(spread_, surface);
       std::uint32_t left = 0;

@@ -29,9 +29,6 @@ class RelaxPass {
   void lead(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states, double fraction);
   // Fresh vertices that have a phase in that other moment take it and are set.
   void begin_as(SurfaceBuffers& surface, const gpu::Buffer& phases, const gpu::Buffer& states);
-  // The number of vertices that got their first phase in the last run; the onset is skipped when there are
-  // none.
-  std::uint32_t fresh_in_last_run() const { return fresh_; }
 
  private:
   void bind(SurfaceBuffers& surface);
@@ -42,7 +39,6 @@ class RelaxPass {
   void smooth(SurfaceBuffers& surface, int rounds);
   gpu::Program descent_, spread_, rotors_, smooth_, finish_, lead_;
   gpu::Buffer numbers_, numbers_next_, rotor_list_;  // made at the first onset
-  std::uint32_t fresh_ = 0;
 };
 
 }  // namespace plisse::passes

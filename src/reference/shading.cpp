@@ -214,9 +214,4 @@ double srgb_encode(double linear) {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
 }
 
-double srgb_decode(double encoded) {
-  const double x = std::clamp(encoded, 0.0, 1.0);
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
 }  // namespace plisse::reference

@@ -122,6 +122,5 @@ Eigen::Vector3d limited_parallax_shift(const Eigen::Vector3d& v, const Eigen::Ve
 
 // IEC 61966-2-1, of one channel in 0…1.
 double srgb_encode(double linear);
-double srgb_decode(double encoded);
 
 }  // namespace plisse::reference

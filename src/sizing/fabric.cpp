@@ -10,8 +10,7 @@
 namespace plisse::sizing {
 namespace {
 
-constexpr double gravity = 9.80665;            // m/s², the one in a gram-force
-constexpr double gram_force = 1e-3 * gravity;  // N
+constexpr double gram_force = 9.80665e-3;                                      // N
 constexpr double ounce_per_square_yard = 28.349523125e-3 / (0.9144 * 0.9144);  // kg/m²
 
 struct Unit {
@@ -86,14 +85,6 @@ std::optional<double> parse_density(std::string_view text) {
   static constexpr std::array<Unit, 4> units = {
       {{"kg/m2", 1}, {"g/m2", 1e-3}, {"gsm", 1e-3}, {"oz/yd2", ounce_per_square_yard}}};
   return parse(text, units);
-}
-
-double bending_from_cantilever(double density, double bending_length) {
-  return density * gravity * bending_length * bending_length * bending_length;
-}
-
-double modulus_from_membrane(double stiffness, double thickness) {
-  return stiffness / thickness;
 }
 
 const std::vector<Fabric>& fabrics() {

@@ -37,9 +37,4 @@ inline constexpr std::string_view bending_units = "N·m, mN·m, µN·m, gf·cm²
 inline constexpr std::string_view modulus_units = "N/m², Pa, kPa, MPa, GPa, N/mm² or gf/mm²";
 inline constexpr std::string_view density_units = "kg/m², g/m² or oz/yd²";
 
-// Bending stiffness from a cantilever test (ASTM D1388): density (kg/m²) · g · bending length³ (m).
-double bending_from_cantilever(double density, double bending_length);
-// Young's modulus from a stiffness per width (N/m; 1 gf/cm = 0.980665 N/m) and a thickness (m).
-double modulus_from_membrane(double stiffness, double thickness);
-
 }  // namespace plisse::sizing

@@ -35,8 +35,6 @@ class Problem {
 
   // Scales that make unknowns dimensionless: the largest √(2s₀)/|ω| and |ω| of the live faces' own
   // waves (start.h); never 0.
-  double amplitude_scale() const { return amplitude_scale_; }
-  double frequency_scale() const { return frequency_scale_; }
 
   // Largest amplitudes, in the scale, one a free amplitude: √(2s₀)/|ω| of the patch's strongest compression
   // and of one wave over the patch's diameter. Longer waves belong to the shape of the base surface; where
