@@ -66,7 +66,7 @@ TEST_P(Pictures, LookAsTheyAreMeantTo) {
   const io::Image image = drawn(GetParam(), folder.path());
   const std::filesystem::path kept = test::source_file("tests/images/" + GetParam().name + ".png");
   const std::filesystem::path found = std::filesystem::path(kept).replace_extension(".new.png");
-  const auto hand_over = [&] { io::write_png(found, image, {6, ""}); };
+  const auto hand_over = [&] { io::write_png(found, image, {io::PngLevel::small, {}}); };
   if (!std::filesystem::exists(kept)) {
     hand_over();
     FAIL() << kept << " is not there; what was drawn is " << found
