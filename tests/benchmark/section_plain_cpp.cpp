@@ -9,7 +9,7 @@
 #include "benchmark/plain_cpp.h"
 #include "benchmark/sections.h"
 
-namespace plisse::benchmarkmark {
+namespace plisse::benchmark {
 namespace {
 
 constexpr float dead_zone = 0.005F, epsilon = 13.2F;
@@ -124,4 +124,4 @@ void measure_plain_cpp(Report& report, const Effort& effort) {
   report.tables.push_back(table);
 }
 
-}  // namespace plisse::benchmarkmark
+}  // namespace plisse::benchmark
