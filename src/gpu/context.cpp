@@ -94,15 +94,25 @@ bool is_software(const std::string& renderer) {
 
 }  // namespace
 
+// The display is never terminated. EGL has one of each device in a process, shared with the program that uses
+// the library and with our contexts of other threads; eglTerminate would end it for all of them, since it
+// does not count who initialised it (EGL_KHR_display_reference, which does, is missing in Mesa). What stays
+// is a driver that is ready for the next context.
 struct Context::Handles {
+  // What was current on this thread, which is the host's, or that of another context of ours.
+  EGLenum api_before = eglQueryAPI();
+  EGLDisplay display_before = eglGetCurrentDisplay();
+  EGLSurface draw_before = eglGetCurrentSurface(EGL_DRAW), read_before = eglGetCurrentSurface(EGL_READ);
+  EGLContext context_before = eglGetCurrentContext();
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
 
   ~Handles() {
-    if (display == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context != EGL_NO_CONTEXT) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglBindAPI(api_before);
+    if (context_before != EGL_NO_CONTEXT)
+      eglMakeCurrent(display_before, draw_before, read_before, context_before);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    eglTerminate(display);
   }
 
   // Empty if the context was made and is current, otherwise the error.
@@ -141,7 +151,6 @@ struct Context::Handles {
     }
     if (!problem.empty()) {
       if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-      eglTerminate(display);
       display = EGL_NO_DISPLAY;
       context = EGL_NO_CONTEXT;
     }
@@ -149,8 +158,9 @@ struct Context::Handles {
   }
 };
 
-Context::Context(int device) : handles_(std::make_unique<Handles>()) {
+Context::Context(int device) {
   require_libraries();
+  handles_ = std::make_unique<Handles>();
   std::string tried;
   const auto attempt = [&](const std::string& path, const std::function<EGLDisplay()>& make_display) {
     const std::string problem = handles_->open(make_display());

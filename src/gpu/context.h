@@ -13,8 +13,8 @@ struct Info {
   bool software = false;  // rasterises on the CPU: time with a CPU clock, not with timer queries
 };
 
-// The current thread's context; one at a time. Throws Error(no_opengl) that lists every path tried, its error
-// and the package that may help.
+// The current thread's context; the one that was current before is so again when this one ends. Throws
+// Error(no_opengl) that lists every path tried, its error and the package that may help.
 class Context {
  public:
   // device: index of `list_devices`, −1 for the first that works.

@@ -1,9 +1,11 @@
 // The OpenGL layer: context, programs, buffers, targets, and a dispatch larger than one dimension holds.
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <gmock/gmock.h>
 
 #include <numeric>
+#include <thread>
 
 #include "base/error.h"
 #include "gpu/buffer.h"
@@ -71,6 +73,23 @@ TEST_F(GpuDevices, ContextsFollowEachOther) {
     const Buffer buffer(std::vector<int>{1, 2, 3});
     EXPECT_EQ(buffer.read<int>(), (std::vector<int>{1, 2, 3}));
   }
+}
+
+// The display is one for the whole process: a context that ends must not take it from the others.
+TEST_F(GpuDevices, AContextThatEndsLeavesThoseOfOthers) {
+  const Context host;
+  const EGLContext current = eglGetCurrentContext();
+  const Buffer buffer(std::vector<int>{1, 2, 3});
+  { const Context ours; }
+  EXPECT_EQ(eglGetCurrentContext(), current);
+  EXPECT_EQ(buffer.read<int>(), (std::vector<int>{1, 2, 3}));
+  std::thread([] { const Context of_another_thread; }).join();
+  EXPECT_NE(eglQueryString(eglGetCurrentDisplay(), EGL_VERSION), nullptr);
+  EXPECT_EQ(buffer.read<int>(), (std::vector<int>{1, 2, 3}));
+  eglBindAPI(EGL_OPENGL_ES_API);
+  { const Context ours; }
+  EXPECT_EQ(eglQueryAPI(), static_cast<EGLenum>(EGL_OPENGL_ES_API));
+  eglBindAPI(EGL_OPENGL_API);
 }
 
 TEST_F(Gpu, CheckNamesAPendingError) {
