@@ -143,18 +143,27 @@ SizeReport::Panel figures(const Panel& panel, const SizedPanel& sized) {
 
 }  // namespace
 
+sizing::SizedGarment mesh_panels(const config::PanelFile& file) {
+  sizing::SizedGarment garment;
+  if (file.garment.seams.empty()) {
+    garment.made = file.garment.panels;
+    for (const Panel& panel : garment.made) garment.panels.push_back(sizing::mesh_panel(panel, file.options));
+  } else {
+    garment = sizing::mesh_garment(file.garment, file.options);
+  }
+  for (const auto& sized : garment.panels)
+    for (const std::string& warning : sized->domain.warnings) log::warn(warning);
+  return garment;
+}
+
 SizeReport size_panels(const SizeRequest& request) {
   const config::PanelFile file =
       config::load_panels(request.panels, request.fabric ? &*request.fabric : nullptr);
-  const bool sewn = !file.garment.seams.empty();
-  sizing::SizedGarment garment;
-  if (sewn) garment = sizing::mesh_garment(file.garment, file.options);
+  const sizing::SizedGarment garment = mesh_panels(file);
   SizeReport report;
-  for (std::size_t p = 0; p < file.garment.panels.size(); ++p) {
-    const Panel& panel = sewn ? garment.made[p] : file.garment.panels[p];
-    const auto alone = sewn ? nullptr : sizing::mesh_panel(panel, file.options);
-    const SizedPanel* const sized = sewn ? garment.panels[p].get() : alone.get();
-    for (const std::string& warning : sized->domain.warnings) log::warn(warning);
+  for (std::size_t p = 0; p < garment.panels.size(); ++p) {
+    const Panel& panel = garment.made[p];
+    const SizedPanel* const sized = garment.panels[p].get();
     report.panels.push_back(figures(panel, *sized));
 
     const SizeScale scale(*sized);
@@ -168,7 +177,7 @@ SizeReport size_panels(const SizeRequest& request) {
     io::write_png(path("_map.png"), draw_size_map(panel, *sized, scale), small);
     io::write_png(path("_mesh.png"), draw_size_mesh(panel, *sized, scale), small);
   }
-  if (sewn) {
+  if (!file.garment.seams.empty()) {
     report.garment = {garment.vertices, 0, garment.joins};
     for (const auto& panel : garment.panels) report.garment->triangles += panel->mesh.triangles.size();
     write_garment(report.files.emplace_back(request.folder / "garment.obj"), file.garment, garment);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/panel_file.h"
 #include "sizing/garment.h"
 
 namespace plisse::cloth {
@@ -39,6 +40,10 @@ struct SizeReport {
   std::optional<Garment> garment;
   std::vector<std::filesystem::path> files;
 };
+
+// The panels of a file meshed, sewn where it has seams; without seams nothing but `made` and `panels` is
+// filled in. Says what the mesher warns of. Throws Error(bad_input).
+sizing::SizedGarment mesh_panels(const config::PanelFile& file);
 
 // Writes for every panel NAME.obj, NAME.ply, NAME_map.png and NAME_mesh.png, and where there are seams
 // garment.obj: the panels sewn to one mesh, placed, with panel coordinates as uv. Throws Error.
