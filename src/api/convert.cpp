@@ -66,6 +66,10 @@ void check_count(std::string_view who, std::string_view what, std::size_t found,
   if (found != wanted) throw bad(who, fmt::format("{} {}; there have to be {}", found, what, wanted));
 }
 
+void check_held(std::string_view who, const std::vector<std::uint8_t>& held, std::size_t vertices) {
+  if (!held.empty()) check_count(who, "entries of held", held.size(), vertices);
+}
+
 void check_surface(std::string_view who, const std::vector<Vector3>& positions,
                    const std::vector<Triangle>& triangles) {
   if (triangles.empty()) throw bad(who, "has no triangles");
@@ -177,6 +181,21 @@ Mesh mesh_of(const io::MeshFile& file) {
   for (const io::MeshFile::Part& part : file.parts)
     mesh.parts.push_back({part.mesh, part.material, part.first_triangle, part.triangle_count});
   return mesh;
+}
+
+shell::Material to_shell(const Material& material) {
+  const shell::Material result{material.young, material.poisson, material.thickness, material.density};
+  shell::check(result);
+  return result;
+}
+
+io::WrinkleField to_io(const WrinkleField& field, std::string_view who) {
+  check_surface(who, field.positions, field.triangles);
+  check_count(who, "amplitudes", field.amplitude.size(), field.positions.size());
+  check_count(who, "triples of phases", field.phase.size(), field.triangles.size());
+  io::WrinkleField result{points_to_glm(field.positions), field.amplitude, field.triangles, field.phase};
+  io::check_field(result, std::string(who));
+  return result;
 }
 
 }  // namespace plisse::api

@@ -7,7 +7,9 @@
 
 #include "base/message_scope.h"
 #include "io/mesh_file.h"
-#include "plisse/mesh.h"
+#include "io/wrinkle_field.h"
+#include "plisse/wrinkle.h"
+#include "shell/material.h"
 
 namespace plisse::api {
 
@@ -29,6 +31,7 @@ void check_surface(std::string_view who, const std::vector<Vector3>& positions,
                    const std::vector<Triangle>& triangles);
 void check_mesh(std::string_view who, const Mesh& mesh);
 void check_count(std::string_view who, std::string_view what, std::size_t found, std::size_t wanted);
+void check_held(std::string_view who, const std::vector<std::uint8_t>& held, std::size_t vertices);
 
 // Three vertices a triangle in one list.
 std::vector<std::uint32_t> flat(const std::vector<Triangle>& triangles);
@@ -37,5 +40,9 @@ std::vector<std::uint32_t> flat(const std::vector<Triangle>& triangles);
 // after all of them. Without normals of its own it gets those of the smooth surface.
 io::MeshFile file_of(const Mesh& mesh);
 Mesh mesh_of(const io::MeshFile& file);
+
+// Both throw Error(bad_input) for what does not hold together.
+shell::Material to_shell(const Material& material);
+io::WrinkleField to_io(const WrinkleField& field, std::string_view who);
 
 }  // namespace plisse::api

@@ -126,9 +126,9 @@ class Methods {
     scene.stretching = shell::Stretching::stvk;
     scene.bending = shell::Bending::midedge;
     scene.perturb = 0.1 * scene.material.thickness;
-    cloth::DrapeRequest request{scene, "", setup_.folder / "solved" / "stvk.ply", {}};
-    const cloth::DrapeReport drape = cloth::drape(request);
-    const cloth::WrinkleScene base = cloth::read_base(request.output);
+    const auto path = setup_.folder / "solved" / "stvk.ply";
+    const cloth::DrapeReport drape = cloth::drape({scene, "", path, {}});
+    const cloth::WrinkleScene base = cloth::read_base(path);
     outcomes_.push_back(measured(
         fmt::format("StVK shell, {} vertices{}", drape.vertices, drape.converged ? "" : ", not converged"),
         drape.wall_s, points_to_glm(base.surface.positions), corners(base.surface.topology.faces)));

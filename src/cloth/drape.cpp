@@ -209,22 +209,23 @@ shell::Equilibrium solve_frame(const DrapeScene& scene, const shell::Shell& shel
 DrapeReport drape(const DrapeRequest& request) {
   const DrapeScene& scene = request.scene;
   const double began = wall_seconds();
-  const bool pattern = config::is_frame_pattern(request.output.string());
-  if (request.output.extension() != ".ply")
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("{}: base surfaces are written as PLY; end the name with .ply", request.output.string()));
+  const bool files = request.output.has_value();
+  const std::filesystem::path output = request.output.value_or("");
+  const bool pattern = config::is_frame_pattern(output.string());
+  if (files && output.extension() != ".ply")
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: base surfaces are written as PLY; end the name with .ply", output.string()));
   const std::vector<int> picked = request.frames.empty()
                                       ? std::vector<int>{scene.frames}
                                       : config::select_frames(request.frames, scene.frames);
-  for (std::size_t k = 2; k < picked.size() && !pattern; ++k)
+  for (std::size_t k = 2; k < picked.size() && files && !pattern; ++k)
     if (picked[k] - picked[k - 1] != picked[1] - picked[0])
       throw Error(
           ExitCode::bad_input,
           fmt::format("--frames {}: a point cache wants frames evenly spaced; for a file a frame give "
                       "a pattern, such as -o base_####.ply",
                       request.frames));
-  check_writable(pattern ? frame_file(request.output, picked.front()) : request.output);
+  if (files) check_writable(pattern ? frame_file(output, picked.front()) : output);
 
   const shell::Shell shell = shell_of(scene);
   DrapeReport report;
@@ -240,12 +241,13 @@ DrapeReport drape(const DrapeRequest& request) {
   const auto write = [&](DrapeFrame frame) {
     if (scene.measures) frame.measures = scene.measures(positions);
     if (!loads.obstacles.empty()) frame.contact = contact_of(loads.obstacles, shell.topology, positions);
-    if (pattern || report.frames.empty()) {
-      const auto path = pattern ? frame_file(request.output, frame.frame) : request.output;
+    if (files && (pattern || report.frames.empty())) {
+      const auto path = pattern ? frame_file(output, frame.frame) : output;
       write_base(path, scene, frame, positions);
       frame.path = path.string();
       report.outputs.push_back(path);
     }
+    if (request.on_frame) request.on_frame(frame, positions);
     report.converged &= frame.equilibrium.converged;
     report.frames.push_back(std::move(frame));
   };
@@ -269,8 +271,10 @@ DrapeReport drape(const DrapeRequest& request) {
     report.interrupted = interrupted() && !frame.equilibrium.converged;
     const bool wanted = std::find(picked.begin(), picked.end(), n) != picked.end();
     if (wanted) {
-      cached.push_back(n);
-      cached_positions.push_back(positions);
+      if (files && !pattern) {
+        cached.push_back(n);
+        cached_positions.push_back(positions);
+      }
     } else if (!report.interrupted) {
       if (!frame.equilibrium.converged)
         log::warn(fmt::format("frame {} on the way did not converge: {}", n, frame.equilibrium.reason));
@@ -278,8 +282,7 @@ DrapeReport drape(const DrapeRequest& request) {
     }
     write(std::move(frame));
   }
-  if (!pattern && cached_positions.size() > 1)
-    report.outputs.push_back(write_cache(request.output, cached, cached_positions));
+  if (cached_positions.size() > 1) report.outputs.push_back(write_cache(output, cached, cached_positions));
   report.from_cache = reuse.answers;
   report.saved_s = reuse.saved_s;
   report.wall_s = wall_seconds() - began;

@@ -35,11 +35,13 @@ using DrapeProgress = std::function<void(int frame, int frames, const shell::New
 
 struct DrapeRequest {
   DrapeScene scene;
-  std::string frames;            // a selection of the scene's frames; empty: the last alone
-  std::filesystem::path output;  // base.ply, or base_####.ply: a file a frame
+  std::string frames;                           // a selection of the scene's frames; empty: the last alone
+  std::optional<std::filesystem::path> output;  // base.ply, or base_####.ply: a file a frame; none: no file
   DrapeProgress progress;
   std::filesystem::path cache =
       {};  // folder of equilibria that were found before (solved_cache.h); empty: none
+  // Takes each frame that was asked for, in order, with the positions that it came to.
+  std::function<void(const DrapeFrame&, const shell::Positions&)> on_frame = {};
 };
 
 struct DrapeReport {

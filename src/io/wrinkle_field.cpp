@@ -98,9 +98,11 @@ WrinkleField read_ply_field(const fs::path& path) {
   return field;
 }
 
-void validate(const WrinkleField& field, const std::string& file) {
+}  // namespace
+
+void check_field(const WrinkleField& field, const std::string& file) {
   for (std::size_t v = 0; v < field.amplitude.size(); ++v) {
-    if (!(field.amplitude[v] >= 0))
+    if (!(field.amplitude[v] >= 0 && std::isfinite(field.amplitude[v])))
       throw bad(file, fmt::format("vertex {}: the amplitude is {:.4g}; it has to be 0 or more", v,
                                   field.amplitude[v]));
   }
@@ -111,6 +113,8 @@ void validate(const WrinkleField& field, const std::string& file) {
   for (std::size_t t = 0; t < field.triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = field.triangles[t][c];
+      if (!std::isfinite(field.phase[t][c]))
+        throw bad(file, fmt::format("face {}: the phase of vertex {} is not finite", t, v));
       if (std::isnan(first[v])) first[v] = field.phase[t][c];
       const double difference = std::remainder(field.phase[t][c] - first[v], turn);
       if (field.amplitude[v] > 0 && std::abs(difference) > tolerance) {
@@ -123,8 +127,6 @@ void validate(const WrinkleField& field, const std::string& file) {
     }
   }
 }
-
-}  // namespace
 
 std::vector<double> read_numbers(const fs::path& path, std::size_t wanted, std::string_view of_what) {
   std::vector<double> values;
@@ -148,7 +150,7 @@ std::vector<double> read_numbers(const fs::path& path, std::size_t wanted, std::
 WrinkleField read_wrinkle_field(const fs::path& path, const fs::path& mesh) {
   const bool ply = path.extension() == ".ply" || path.extension() == ".PLY";
   WrinkleField field = ply ? read_ply_field(path) : read_text(path, mesh);
-  validate(field, path.string());
+  check_field(field, path.string());
   return field;
 }
 

@@ -35,6 +35,10 @@ struct WrinkleField {
 // vertex whose phases do not differ by multiples of 2π where the amplitude is not 0.
 WrinkleField read_wrinkle_field(const std::filesystem::path& path, const std::filesystem::path& mesh);
 
+// Throws Error(bad_input), which begins with `name`: an amplitude below 0, values that are not finite, or
+// corners of one vertex whose phases do not differ by multiples of 2π where the amplitude is not 0.
+void check_field(const WrinkleField& field, const std::string& name);
+
 // One number a line. Throws Error(bad_input) where there are not `wanted` of them (`of_what`: of the base
 // surface), or one is no finite number.
 std::vector<double> read_numbers(const std::filesystem::path& path, std::size_t wanted,

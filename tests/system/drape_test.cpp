@@ -109,6 +109,9 @@ TEST(Drape, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused({}), HasSubstr("give a SCENE.toml"));
   EXPECT_THAT(refused({"--example", "cantilever", "--residual", "0.1"}), HasSubstr("is for tension fields"));
   EXPECT_THAT(refused({"--example", "strip", "--frames", "1,2,5"}), HasSubstr("evenly spaced"));
+  const Outcome unnamed = plisse({"drape", "--example", "strip", "-o", ""});
+  EXPECT_EQ(unnamed.code, 2);
+  EXPECT_THAT(unnamed.err, HasSubstr("end the name with .ply"));
   write_text(
       folder / "odd.json",
       "{\"youngs_modulus\": 1e6, \"poisson_ratio\": 0.3, \"thickness\": 1e-3, \"rest_mesh\": \"x.obj\", "
