@@ -14,20 +14,10 @@
 #include "base/units.h"
 #include "cli/report.h"
 #include "config/options.h"
-#include "config/panel_file.h"
 #include "config/scene_file.h"
 #include "gpu/context.h"
 
 namespace plisse::cli {
-namespace {
-
-bool is_scene(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return lower_case(extension) == ".toml";
-}
-
-}  // namespace
-
 double positive_number(const std::string& option, const std::string& text) {
   const auto number = parse_number(text);
   if (!number || !std::isfinite(*number) || *number <= 0)
@@ -100,14 +90,7 @@ config::SceneSettings SceneArguments::settings() const {
     throw Error(ExitCode::bad_input,
                 fmt::format("plisse {0}: give a SCENE.toml or a MODEL; see 'plisse {0} --help'", command_));
   }
-  config::SceneSettings scene;
-  if (!is_scene(input_)) {
-    scene = config::bare_scene(input_);
-  } else if (config::is_panel_file(input_)) {
-    scene.model.garment = input_;
-  } else {
-    scene = config::load_scene(input_);
-  }
+  config::SceneSettings scene = config::open_scene(input_);
   config::GivenOptions options;
   for (const Given& given : given_) {
     if (!given.values.empty()) options.emplace_back(given.option, given.values);

@@ -12,6 +12,7 @@
 #include "config/frames.h"
 #include "config/key_table.h"
 #include "config/keys.h"
+#include "config/panel_file.h"
 
 namespace plisse::config {
 namespace {
@@ -83,19 +84,7 @@ std::string commented(const std::string& text) {
   return lines + "\n";
 }
 
-}  // namespace
-
-SceneSettings bare_scene(const fs::path& model) {
-  SceneSettings scene;
-  scene.model.path = model;
-  return scene;
-}
-
-SceneSettings load_scene(const fs::path& file) {
-  return parse_scene(read_whole_text(file), file);
-}
-
-SceneSettings parse_scene(std::string_view text, const fs::path& file) {
+SceneSettings parse(std::string_view text, const fs::path& file, bool needs_model) {
   FileReader reader(text, file);
   append(reader.all, keys());
   SceneSettings scene;
@@ -117,7 +106,7 @@ SceneSettings parse_scene(std::string_view text, const fs::path& file) {
   }
   reader.read_tables(all);
   const bool garment = !reader.root()["model"]["garment"].value_or(std::string()).empty();  // right or wrong
-  if (!given.contains("model.path") && !garment) {
+  if (needs_model && !given.contains("model.path") && !garment) {
     reader.complain(model_table, fmt::format("key 'path': missing in [model]; allowed: {}; or 'garment'",
                                              find_key("model", "path")->allowed));
   }
@@ -125,6 +114,34 @@ SceneSettings parse_scene(std::string_view text, const fs::path& file) {
   check_together(scene, given, reader);
   reader.finish();
   return scene;
+}
+
+}  // namespace
+
+SceneSettings bare_scene(const fs::path& model) {
+  SceneSettings scene;
+  scene.model.path = model;
+  return scene;
+}
+
+SceneSettings load_scene(const fs::path& file) {
+  return parse_scene(read_whole_text(file), file);
+}
+
+SceneSettings open_scene(const fs::path& file) {
+  if (lower_case(file.extension().string()) != ".toml") return bare_scene(file);
+  if (!is_panel_file(file)) return load_scene(file);
+  SceneSettings scene;
+  scene.model.garment = file;
+  return scene;
+}
+
+SceneSettings parse_scene(std::string_view text, const fs::path& file) {
+  return parse(text, file, true);
+}
+
+SceneSettings parse_scene_of_any_model(std::string_view text, const fs::path& file) {
+  return parse(text, file, false);
 }
 
 std::string scene_text(const std::string& model_path, const std::map<std::string, std::string>& notes) {

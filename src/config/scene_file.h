@@ -18,8 +18,13 @@ SceneSettings bare_scene(const std::filesystem::path& model);
 // the file's order. Paths in the file are relative to its folder.
 SceneSettings load_scene(const std::filesystem::path& file);
 
-// The same for a text that stands, or will stand, in `file`.
+// The same for a text that stands, or will stand, in `file`; the second for one that need not say which
+// model.
 SceneSettings parse_scene(std::string_view text, const std::filesystem::path& file);
+SceneSettings parse_scene_of_any_model(std::string_view text, const std::filesystem::path& file);
+
+// What commands take for a scene: a scene file, a panel file (both .toml), or else a model.
+SceneSettings open_scene(const std::filesystem::path& file);
 
 // A scene with every key: `path` as given (to be read relative to the scene's folder), all others commented
 // out at their defaults, so that it means the same as the bare model. Notes are put beside keys
