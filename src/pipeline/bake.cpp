@@ -145,25 +145,34 @@ double largest_height(const pipeline::LoadedScene& scene) {
   return (scene.profile.coarse + scene.profile.fine) * waves + field;
 }
 
+// The maps' texels, islands widened; `value` gives what a map has of one.
+template <typename Value>
+auto map_of(const UvRaster& raster, const std::vector<Texel>& texels, const Value& value) {
+  std::vector<decltype(value(Texel{}))> values;
+  values.reserve(texels.size());
+  for (const std::int64_t source : raster.source)
+    values.push_back(value(source == UvRaster::none ? Texel{} : texels[static_cast<std::size_t>(source)]));
+  return values;
+}
+
 std::uint8_t byte(double x) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
 }
 
-// A picture of the maps' texels, islands widened; `shown` gives 0…1.
+// A picture of the maps' texels; `shown` gives 0…1.
 template <typename Shown>
 io::Image picture(const UvRaster& raster, const std::vector<Texel>& texels, const Shown& shown) {
   io::Image image{raster.size, raster.size, {}};
   image.rgba.reserve(4 * texels.size());
-  for (const std::int64_t source : raster.source) {
-    const glm::dvec3 value =
-        shown(source == UvRaster::none ? Texel{} : texels[static_cast<std::size_t>(source)]);
+  for (const glm::dvec3& value : map_of(raster, texels, shown)) {
     image.rgba.insert(image.rgba.end(), {byte(value.x), byte(value.y), byte(value.z), 255});
   }
   return image;
 }
 
 void check_request(const BakeRequest& request) {
-  if (request.output.empty()) throw Error(ExitCode::bad_input, "plisse bake: name the folder with -o");
+  if (request.output.empty() && !request.on_maps)
+    throw Error(ExitCode::bad_input, "plisse bake: name the folder with -o");
   if (!request.height && !request.normal)
     throw Error(ExitCode::bad_input, "--maps: none named; there are: height, normal");
 }
@@ -173,7 +182,7 @@ void check_request(const BakeRequest& request) {
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();
   check_request(request);
-  pipeline::LoadedScene scene(request.scene);
+  pipeline::LoadedScene scene(request.scene, request.memory);
   const auto frames =
       config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   const Baker baker(scene, request.texture_size);
@@ -206,27 +215,29 @@ BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) 
         const pipeline::WaveSnapshot snapshot = pipeline::read_snapshot(surface);
         if (outside) outside->take(frame, points_to_glm(snapshot.positions));
         const std::vector<Texel> texels = baker.at(snapshot, outside ? &*outside : nullptr);
+        const auto metres = [](const Texel& texel) { return static_cast<float>(texel.height); };
+        const auto normal = [&](const Texel& texel) {
+          return glm::dvec3(texel.normal.x, green * texel.normal.y, texel.normal.z);
+        };
+        if (request.on_maps) {
+          request.on_maps({frame, raster.size, raster.corner, raster.side, map_of(raster, texels, metres),
+                           map_of(raster, texels, normal)});
+          return std::string();
+        }
         const auto path = [&](const char* kind, const char* ending) {
           const auto named = folder / fmt::format("{}_{:04}{}", kind, frame, ending);
           report.outputs.push_back({named.string(), kind, frame});
           return named;
         };
         if (request.height) {
-          std::vector<float> metres;
-          metres.reserve(texels.size());
-          for (const std::int64_t source : raster.source)
-            metres.push_back(source == UvRaster::none
-                                 ? 0
-                                 : static_cast<float>(texels[static_cast<std::size_t>(source)].height));
-          io::write_exr(path("height", ".exr"), raster.size, raster.size, 1, metres);
+          io::write_exr(path("height", ".exr"), raster.size, raster.size, 1, map_of(raster, texels, metres));
           io::write_png(path("height", ".png"), picture(raster, texels, [&](const Texel& texel) {
                           return glm::dvec3(0.5 + 0.5 * texel.height / scale);
                         }));
         }
         if (request.normal) {
           io::write_png(path("normal", ".png"), picture(raster, texels, [&](const Texel& texel) {
-                          return 0.5 +
-                                 0.5 * glm::dvec3(texel.normal.x, green * texel.normal.y, texel.normal.z);
+                          return 0.5 + 0.5 * normal(texel);
                         }));
         }
         return folder.string();

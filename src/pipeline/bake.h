@@ -1,6 +1,7 @@
 // plisse bake: the wrinkles as height and normal maps.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -9,8 +10,18 @@
 
 namespace plisse::pipeline {
 
+// Of one frame, rows from top to bottom, islands widened.
+struct BakedMaps {
+  int frame = 0, size = 0;          // texels a side
+  glm::dvec2 corner;                // as in BakeReport
+  int side = 1;                     // likewise
+  std::vector<float> height;        // metres
+  std::vector<glm::dvec3> normals;  // in the tangent basis, unit; y as green_up says
+};
+
 struct BakeRequest {
   config::SceneSettings scene;
+  scene::InMemory memory;
   std::string output;  // a folder
   bool height = true, normal = true;
   int texture_size = 2048;
@@ -18,6 +29,8 @@ struct BakeRequest {
   std::string outside;   // a body that the waves stay outside of; empty: none
   int device = -1;
   std::string shader_folder;
+  // Takes both maps in place of `output`, in order; what it throws ends the run.
+  std::function<void(const BakedMaps&)> on_maps;
 };
 
 struct BakeReport {

@@ -79,10 +79,10 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
 
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();
-  pipeline::LoadedScene scene(request.scene);
+  pipeline::LoadedScene scene(request.scene, request.memory);
   const auto frames =
       config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
-  check_output(request.output, frames);
+  if (!request.on_mesh) check_output(request.output, frames);
   const int levels = request.levels ? *request.levels : pipeline::levels_for(scene);
   const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << levels));
   std::optional<pipeline::Outside> outside;
@@ -112,6 +112,10 @@ ExportReport export_geometry(const ExportRequest& request, const FrameCallback& 
                                 }
                                 mesh.positions = std::move(displaced.positions);
                                 mesh.normals = std::move(displaced.normals);
+                                if (request.on_mesh) {
+                                  request.on_mesh(frame, mesh);
+                                  return std::string();
+                                }
                                 io::write_mesh(path, mesh);
                                 report.outputs.push_back({path, "mesh", frame});
                                 return path;

@@ -1,21 +1,26 @@
 // plisse export: the wrinkles as geometry for other programs.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/mesh_file.h"
 #include "pipeline/render.h"
 
 namespace plisse::pipeline {
 
 struct ExportRequest {
   config::SceneSettings scene;
+  scene::InMemory memory;
   std::string output;         // mesh_####.ply|obj|glb, or CACHE.pc2|mdd
   std::optional<int> levels;  // how often edges are halved; none: as the waves need it
   std::string outside;        // a body that the waves stay outside of; empty: none
   int device = -1;
   std::string shader_folder;
+  // Takes the meshes in place of `output`, in order; what it throws ends the run.
+  std::function<void(int frame, const io::MeshFile&)> on_mesh;
 };
 
 struct ExportReport {

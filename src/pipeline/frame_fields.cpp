@@ -26,11 +26,26 @@ FrameFields::FrameFields(const config::SceneSettings& settings, int frame_count,
     meshes_ = io::sequence_files(mesh_);
 }
 
+FrameFields::FrameFields(std::shared_ptr<const std::vector<io::WrinkleField>> fields, int frame_count,
+                         std::vector<double> mask)
+    : in_memory_(std::move(fields)), mask_(std::move(mask)) {
+  if (in_memory_->size() != static_cast<std::size_t>(frame_count))
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("there are {} wrinkle fields, but the clip has {} frames; give one, or one a frame",
+                    in_memory_->size(), frame_count));
+}
+
 std::vector<FieldTriangle> FrameFields::over(const Surface& surface, const io::Model& model,
                                              const std::vector<glm::dvec3>& positions, int frame) const {
   const auto index = static_cast<std::size_t>(frame - 1);
   Surface base = surface;
   base.rest = positions;
+  if (in_memory_) {
+    const auto field = paint::field_on(base, in_memory_->at(index), glm::dmat4(1),
+                                       fmt::format("wrinkle field of frame {}", frame));
+    return paint::field_directly(base, rest_frames(base), field, mask_);
+  }
   const auto file = io::read_wrinkle_field(files_.at(index), index < meshes_.size() ? meshes_[index] : mesh_);
   const auto field =
       paint::field_on(base, file, io::file_to_world(model.up, model.metres_per_unit), files_[index].string());

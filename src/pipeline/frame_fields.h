@@ -1,12 +1,14 @@
-// Solved wrinkle fields in files, one for every frame of a sequence of base surfaces.
+// Solved wrinkle fields, in files or in memory, one for every frame of a sequence of base surfaces.
 #pragma once
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "config/settings.h"
 #include "io/model.h"
+#include "io/wrinkle_field.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 
@@ -19,7 +21,11 @@ class FrameFields {
   // Error(bad_input) where their number is not that of the frames.
   FrameFields(const config::SceneSettings& settings, int frame_count, std::vector<double> mask);
 
-  bool empty() const { return files_.empty(); }
+  // The same of fields in memory, metres, y up.
+  FrameFields(std::shared_ptr<const std::vector<io::WrinkleField>> fields, int frame_count,
+              std::vector<double> mask);
+
+  bool empty() const { return files_.empty() && !in_memory_; }
   // The waves of a frame (from 1) on the surface whose welded vertices are at `positions` then, metres.
   // Throws Error(bad_input) where the field belongs to another surface.
   std::vector<FieldTriangle> over(const Surface& surface, const io::Model& model,
@@ -28,6 +34,7 @@ class FrameFields {
  private:
   std::filesystem::path mesh_;                         // the model's own file
   std::vector<std::filesystem::path> files_, meshes_;  // meshes: for text files, the OBJ of each
+  std::shared_ptr<const std::vector<io::WrinkleField>> in_memory_;
   std::vector<double> mask_;
 };
 

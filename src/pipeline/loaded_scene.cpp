@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "config/frames.h"
@@ -51,9 +52,9 @@ void for_key(const config::SceneSettings& scene, const std::string& key, const W
 
 }  // namespace
 
-LoadedScene::LoadedScene(const config::SceneSettings& given)
+LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemory& memory)
     : settings(given),
-      model(scene::load_model(given)),
+      model(memory.model ? *memory.model : scene::load_model(given)),
       animation(model, choice_of(given)),
       profile(passes::with_finer_waves(passes::make_profile(given.wrinkles.profile), given.wrinkles.fine,
                                        given.wrinkles.fine_share)) {
@@ -77,26 +78,35 @@ LoadedScene::LoadedScene(const config::SceneSettings& given)
   units.world_centre = 0.5 * (bounds_.low + bounds_.high);
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
   settings.camera = scene::fitted_camera(settings, bounds_, samples);
-  take_bias();
+  take_bias(memory);
   state_base_ = start_hash(*this);
 }
 
-void LoadedScene::take_bias() {
+void LoadedScene::take_bias(const scene::InMemory& memory) {
   const config::BiasSettings& given = settings.bias;
   if (!given.paint.empty()) waves.bias = painted(config::load_paint(given.paint));
   if (!given.file.empty())
     for_key(settings, "bias.file", [&] { waves.bias = paint::read_bias(given.file, surface(), rest); });
-  if (!given.field.empty())
-    for_key(settings, "bias.field",
-            [&] { config::names_many_files(given.field) ? take_field_files() : take_field(); });
+  const int frames = animation.timeline().frame_count;
+  if (memory.fields && memory.fields->size() == 1) {
+    take_field(memory.fields->front(), glm::dmat4(1), "wrinkle field");
+  } else if (memory.fields) {
+    take_frame_fields({memory.fields, frames, waves.mask});
+  } else if (!given.field.empty()) {
+    for_key(settings, "bias.field", [&] {
+      if (config::names_many_files(given.field))
+        take_frame_fields({settings, frames, waves.mask});
+      else
+        take_field(io::read_wrinkle_field(given.field, settings.model.path),
+                   io::file_to_world(model.up, model.metres_per_unit), given.field.string());
+    });
+  }
 }
 
-void LoadedScene::take_field() {
-  const config::BiasSettings& given = settings.bias;
-  const auto field =
-      paint::field_on(surface(), io::read_wrinkle_field(given.field, settings.model.path),
-                      io::file_to_world(model.up, model.metres_per_unit), given.field.string());
-  if (given.use == config::FieldUse::bias)
+void LoadedScene::take_field(const io::WrinkleField& given, const glm::dmat4& to_world,
+                             const std::string& name) {
+  const auto field = paint::field_on(surface(), given, to_world, name);
+  if (settings.bias.use == config::FieldUse::bias)
     paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
   else
     waves.field = paint::field_directly(surface(), rest, field, waves.mask);
@@ -104,8 +114,8 @@ void LoadedScene::take_field() {
 
 // Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
 // the animation must not add waves.
-void LoadedScene::take_field_files() {
-  fields_ = FrameFields(settings, animation.timeline().frame_count, waves.mask);
+void LoadedScene::take_frame_fields(FrameFields fields) {
+  fields_ = std::move(fields);
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
   waves.field = fields_.over(surface(), model, scene::posed(surface(), animation.pose(1)), 1);
   field_frame_ = 1;

@@ -16,13 +16,14 @@
 #include "passes/render.h"
 #include "pipeline/frame_fields.h"
 #include "scene/animation.h"
+#include "scene/in_memory.h"
 
 namespace plisse::pipeline {
 
 class LoadedScene {
  public:
   // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
-  explicit LoadedScene(const config::SceneSettings& settings);
+  explicit LoadedScene(const config::SceneSettings& settings, const scene::InMemory& memory = {});
 
   config::SceneSettings settings;  // wavelength and camera resolved
   io::Model model;
@@ -65,10 +66,10 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
-  void take_bias();
-  void take_field();        // the one for all frames
-  void take_field_files();  // one a frame
-  FrameFields fields_;      // one a frame, or none
+  void take_bias(const scene::InMemory& memory);
+  void take_field(const io::WrinkleField& field, const glm::dmat4& to_world, const std::string& name);
+  void take_frame_fields(FrameFields fields);
+  FrameFields fields_;  // one a frame, or none
   int field_frame_ = 0;
   paint::Screen screen(const config::PaintStroke& stroke) const;
   void extend(int step);

@@ -19,9 +19,9 @@
 
 namespace plisse::pipeline {
 
-PaintReport paint_wrinkles(const PaintRequest& request) {
-  const double started = wall_seconds();
-  const config::PaintSettings& paint = request.paint;
+namespace {
+
+config::SceneSettings scene_to_paint(const config::PaintSettings& paint) {
   if (paint.scene.empty()) {
     throw Error(
         ExitCode::bad_input,
@@ -31,7 +31,21 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
   config::SceneSettings settings =
       is_scene ? config::load_scene(paint.scene) : config::bare_scene(paint.scene);
   settings.bias = {};
-  const pipeline::LoadedScene scene(settings);
+  return settings;
+}
+
+}  // namespace
+
+PaintedSurface paint_in_memory(const config::PaintSettings& paint) {
+  const LoadedScene scene(scene_to_paint(paint));
+  return {scene.surface().rest, scene.painted(paint)};
+}
+
+PaintReport paint_wrinkles(const PaintRequest& request) {
+  const double started = wall_seconds();
+  const config::PaintSettings& paint = request.paint;
+  const config::SceneSettings settings = scene_to_paint(paint);
+  const LoadedScene scene(settings);
   const auto bias = scene.painted(paint);
 
   PaintReport report;

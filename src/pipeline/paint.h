@@ -1,6 +1,7 @@
 // plisse paint: strokes become wrinkles of the rest pose, as files.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,12 @@ struct PaintReport {
 // Paints the rest pose of the file's scene and writes the result as vertices, as a uv texture (left out with
 // a warning where the model's uv cannot carry it) and as a preview frame.
 PaintReport paint_wrinkles(const PaintRequest& request);
+
+// The welded vertices of the rest pose, metres, and what the strokes painted on each: along which cloth is
+// gathered, and how much, 0 … 1. Writes no file.
+struct PaintedSurface {
+  std::vector<glm::dvec3> positions, bias;
+};
+PaintedSurface paint_in_memory(const config::PaintSettings& paint);
 
 }  // namespace plisse::pipeline

@@ -16,6 +16,8 @@ namespace plisse::pipeline {
 class Picture {
  public:
   explicit Picture(io::Image image) : image_(std::move(image)) {}
+  // As long as nobody asked for its PNG.
+  const io::Image& image() const { return image_; }
   // The file of a frame with this hash (empty: none), and whether this call compressed it.
   std::pair<std::vector<std::uint8_t>, bool> png(const std::string& hash);
 

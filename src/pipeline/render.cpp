@@ -55,8 +55,8 @@ void guarded(FrameReport& frame, const Work& work) {
     frame.error = error.what();
     frame.code = error.code;
   } catch (const std::bad_alloc&) {
-    frame.error =
-        fmt::format("{}: memory is exhausted; try again with fewer threads or a smaller picture", frame.path);
+    frame.error = fmt::format("{}: memory is exhausted; try again with fewer threads or a smaller picture",
+                              frame.path.empty() ? fmt::format("frame {}", frame.frame) : frame.path);
     frame.code = ExitCode::try_again;
   }
 }
@@ -181,8 +181,9 @@ class Run {
 
 // Loads the scene and the driver at the same time: a separate process reads the model.
 void Run::load() {
-  auto loading = std::async(
-      std::launch::async, log::in_this_scope([&] { return std::make_unique<LoadedScene>(request_.scene); }));
+  auto loading = std::async(std::launch::async, log::in_this_scope([&] {
+                              return std::make_unique<LoadedScene>(request_.scene, request_.memory);
+                            }));
   try {
     context_.emplace(request_.device);
   } catch (const Error&) {
@@ -190,7 +191,7 @@ void Run::load() {
   }
   scene_ = loading.get();  // errors of the scene are reported first
   frames_ = config::select_frames(scene_->settings.model.frames, scene_->animation.timeline().frame_count);
-  config::check_frame_paths(scene_->settings.output.path, frames_);
+  if (!request_.on_picture) config::check_frame_paths(scene_->settings.output.path, frames_);
   aovs_ = parse_aovs(request_.aovs);
   check_aovs(aovs_, request_.displace);
   check_budget(request_);
@@ -223,7 +224,7 @@ void Run::split() {
 }
 
 std::string Run::hash_of(int frame) {
-  if (governor_->active()) return {};
+  if (governor_->active() || request_.on_picture) return {};
   const std::string hash = scene_->frame_hash(frame, driver_);
   if (!request_.displace) return hash;
   return Hash().add(hash).add("displaced").add(split_hash_).add(body_hash_).hex();
@@ -298,7 +299,7 @@ void Run::draw_frames() {
     FrameReport& entry = report_.frames[i];
     entry.frame = frames_[i];
     entry.time_s = scene_->animation.timeline().time(entry.frame);
-    entry.path = config::frame_path(scene_->settings.output.path, entry.frame);
+    if (!request_.on_picture) entry.path = config::frame_path(scene_->settings.output.path, entry.frame);
     const std::string hash = hash_of(entry.frame);
     if (stands_already(entry, hash)) {
       finished(i);
@@ -310,7 +311,12 @@ void Run::draw_frames() {
       report_.interrupted = true;
       break;
     }
-    writer.submit([this, i, hash, picture] { write(i, hash, picture); });
+    if (request_.on_picture) {
+      if (entry.error.empty()) request_.on_picture(entry, picture->image());
+      finished(i);
+    } else {
+      writer.submit([this, i, hash, picture] { write(i, hash, picture); });
+    }
   }
   writer.finish();
 }

@@ -10,14 +10,19 @@
 #include "base/error.h"
 #include "config/settings.h"
 #include "gpu/context.h"
+#include "io/model.h"
 #include "pipeline/effort.h"
+#include "scene/in_memory.h"
 
 namespace plisse::pipeline {
 
 using GlInfo = gpu::Info;
 
+struct FrameReport;
+
 struct RenderRequest {
   config::SceneSettings scene;
+  scene::InMemory memory;
   bool skip_existing = false;     // keep a frame whose file is complete and whose hash is right
   std::string state_file;         // empty: none
   bool displace = false;          // the waves as geometry in place of shading
@@ -28,12 +33,15 @@ struct RenderRequest {
   double max_error = 0;           // the largest change by another round of relaxation, radians; 0: none
   int device = -1;                // −1: first that works
   std::string shader_folder;      // overrides the embedded shaders; empty: none
+  // Takes the pictures in order, on the thread that called, and no picture is written: output.path,
+  // skip_existing and aovs have no place then. What it throws ends the run.
+  std::function<void(const FrameReport&, const io::Image&)> on_picture;
 };
 
 struct FrameReport {
   int frame = 0;
   double time_s = 0;
-  std::string path;
+  std::string path;                  // empty: the picture was not written
   std::map<std::string, double> ms;  // skin, crush, relax, render, readback, encode, write
   bool skipped = false;
   std::vector<std::string>

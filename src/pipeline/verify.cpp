@@ -43,7 +43,7 @@ config::SceneSettings small(config::SceneSettings settings) {
 class Verifier {
  public:
   explicit Verifier(const RenderRequest& request)
-      : scene_(small(request.scene)),
+      : scene_(small(request.scene), request.memory),
         reference_(scene_),
         context_(request.device),
         timer_(context_.info().software),

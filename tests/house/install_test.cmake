@@ -14,7 +14,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 # The public headers are installed, and no other.
-set(HEADERS drape error measure mesh size version wrinkle)
+set(HEADERS drape error measure mesh render size version wrinkle)
 file(GLOB_RECURSE installed RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/*)
 list(SORT installed)
 list(TRANSFORM HEADERS PREPEND plisse/ OUTPUT_VARIABLE wanted)

@@ -105,5 +105,14 @@ TEST_F(Paint, SaysWhatIsWrongWithItsLine) {
   EXPECT_EQ(names_in(folder.path()).size(), 4U);  // nothing was written
 }
 
+TEST_F(Paint, AnEmptyFolderIsTheCurrentOne) {
+  const TemporaryFolder folder;
+  square_scene(folder, "bare.toml", "");
+  write_text(folder / "a.toml", "scene = \"bare.toml\"\n[[stroke]]\nkind = \"fill\"\ndirection = 0\n");
+  const Outcome outcome = plisse({"paint", "a.toml", "-o", ""}, {}, folder.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(names_in(folder.path()), ::testing::IsSupersetOf({"bias.ply", "bias.png"}));
+}
+
 }  // namespace
 }  // namespace plisse::test
