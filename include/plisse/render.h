@@ -30,12 +30,13 @@ namespace plisse {
 // One of `file`, `text` and `frames`. A text may stand beside `frames` for all other keys: its [model] has no
 // path then.
 struct Scene {
-  std::filesystem::path file;        // a scene file (docs/scene.md), a panel file, or a model
-  std::string text;                  // a scene file's text
-  std::filesystem::path folder;      // of the text: paths in it are relative to this
-  std::vector<Mesh> frames;          // a surface in motion; all have the triangles, uv and parts of the first
-  double frames_per_second = 24;     // of `frames`
-  std::vector<WrinkleField> fields;  // solved waves: one, of the rest pose, or one a frame
+  std::filesystem::path file;     // a scene file (docs/scene.md), a panel file, or a model
+  std::string text;               // a scene file's text
+  std::filesystem::path folder;   // of the text: paths in it are relative to this
+  std::vector<Mesh> frames;       // a surface in motion; all have the triangles, uv and parts of the first
+  double frames_per_second = 24;  // of `frames`
+  // Solved waves, in place of the scene's [bias]: one field, of the rest pose, or one a frame.
+  std::vector<WrinkleField> fields;
   // Options of `plisse render` over the scene's keys, in order: {"--size", "640x480"}, {"--frames", "1-48"}.
   std::vector<std::pair<std::string, std::string>> options;
 };

@@ -120,7 +120,10 @@ config::SceneSettings settings_of(const Scene& scene) {
     settings.model.path = in_memory;
   }
   apply(settings, scene.options);
-  if (!scene.fields.empty()) settings.bias = {{}, {}, {}, config::FieldUse::direct};
+  if (!scene.fields.empty()) {
+    settings.bias = {};
+    settings.bias.use = config::FieldUse::direct;
+  }
   return settings;
 }
 
