@@ -1,11 +1,13 @@
 // <plisse/drape.h> against the files of `plisse drape`.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "cloth/drape.h"
 #include "cloth/drape_examples.h"
 #include "cloth/drape_setup.h"
+#include "io/ply.h"
 #include "plisse/drape.h"
 #include "support/errors.h"
 #include "support/files.h"
@@ -56,6 +58,15 @@ TEST(PublicDrape, FramesAreThoseOfTheFiles) {
     EXPECT_EQ(frame.reason, files.frames[k].equilibrium.reason);
     EXPECT_EQ(frame.measures, files.frames[k].measures);
     expect_equal(surfaces[k], load_base(files.outputs[k]));
+    const io::Ply ply = io::read_ply(files.outputs[k]);
+    std::vector<double> rest;
+    for (const auto& corners : surfaces[k].rest)
+      for (const Vector2& corner : corners) rest.insert(rest.end(), corner.begin(), corner.end());
+    EXPECT_EQ(rest, ply.lists("face", "rest", 6));
+    const auto& held = ply.numbers("vertex", {"held"});
+    EXPECT_TRUE(std::equal(held.begin(), held.end(), surfaces[k].held.begin(), surfaces[k].held.end()));
+    EXPECT_EQ(surfaces[k].positions.back()[1], ply.vectors("vertex").back().y);
+    EXPECT_EQ(surfaces[k].material.thickness, scene.material.thickness);
   }
 
   request.output = folder / "ours_####.ply";
