@@ -132,9 +132,8 @@ template <typename Request>
 void take_scene(Request& request, const Scene& scene) {
   request.scene = settings_of(scene);
   if (!scene.frames.empty()) {
-    const io::Model model = model_of(scene.frames, scene.frames_per_second);
-    io::validate(model, request.scene.limits);
-    request.memory.model = std::make_shared<const io::Model>(model);
+    request.memory.model = std::make_shared<const io::Model>(model_of(scene.frames, scene.frames_per_second));
+    io::validate(*request.memory.model, request.scene.limits);
   }
   if (!scene.fields.empty()) {
     std::vector<io::WrinkleField> fields;
