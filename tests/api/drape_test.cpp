@@ -1,7 +1,9 @@
 // <plisse/drape.h> against the files of `plisse drape`.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "cloth/drape.h"

@@ -1,6 +1,8 @@
 // <plisse/size.h> against the files of `plisse size`, and panels in memory against the same panels in a file.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cloth/size.h"
 #include "config/fabric.h"
 #include "io/obj.h"

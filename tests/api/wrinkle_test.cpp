@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cloth/drape_examples.h"
 #include "cloth/wrinkle.h"
 #include "io/mesh_file.h"
