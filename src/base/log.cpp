@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -39,7 +40,22 @@ void print(spdlog::level::level_enum level, std::string_view text) {
   logger().log(level, "{}", text);
 }
 
+// Every warning that was printed, or would have been but for -q, once, in order, whatever its thread.
+struct Warnings {
+  std::mutex mutex;
+  std::vector<std::string> texts;
+};
+Warnings& printed() {
+  static Warnings instance;
+  return instance;
+}
+
 void print_warning(std::string_view text) {
+  {
+    Warnings& all = printed();
+    const std::lock_guard lock(all.mutex);
+    if (std::find(all.texts.begin(), all.texts.end(), text) == all.texts.end()) all.texts.emplace_back(text);
+  }
   print(spdlog::level::warn, fmt::format("warning: {}", text));
 }
 
@@ -90,6 +106,12 @@ void warn(std::string_view text) {
   if (heard(Kind::warning, text)) return;
   if (redirected()) return redirected()("", text);
   print_warning(text);
+}
+
+std::vector<std::string> warnings() {
+  Warnings& all = printed();
+  const std::lock_guard lock(all.mutex);
+  return all.texts;
 }
 
 void warn_once(const std::string& key, std::string_view text) {

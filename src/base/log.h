@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plisse::log {
 
@@ -15,7 +16,9 @@ void set_level(Level level);
 void info(std::string_view text);    // shown with -v
 void notice(std::string_view text);  // shown unless -q
 void warn(std::string_view text);    // shown unless -q, prefixed "warning:"
-// A warning that applies to many elements is printed once per process and key.
+// All that was warned of so far in this process, in order, each text once: for reports.
+std::vector<std::string> warnings();
+// A warning that concerns many elements alike is said once per process and key.
 void warn_once(const std::string& key, std::string_view text);
 
 // From now on warnings of this process are passed to this function instead, each once for its key (empty for

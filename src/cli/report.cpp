@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/log.h"
 
 namespace plisse::cli {
 
@@ -21,8 +22,9 @@ void write_stdout(std::string_view text) {
 
 void write_report(const nlohmann::ordered_json& report, const std::string& file) {
   if (file.empty()) return;
-  const std::string text =
-      report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json whole = report;
+  if (whole.is_object()) whole["warnings"] = log::warnings();
+  const std::string text = whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (file == "-") {
     write_stdout(text);
   } else {

@@ -13,7 +13,7 @@ namespace plisse::cli {
 void write_stdout(std::string_view text);
 
 // To a file, whole or not at all, or to standard output for "-"; nothing for "". Texts that are no UTF-8 get
-// � in place of what is none.
+// � in place of what is none. The key "warnings" is added: all that this process warned of (log::warnings).
 void write_report(const nlohmann::ordered_json& report, const std::string& file);
 
 nlohmann::ordered_json to_json(const pipeline::GlInfo& gl);
