@@ -69,7 +69,7 @@ WrinkleResult solve_wrinkles(const WrinkleRequest& request) {
   const wrinkle::Solution& last = field.real.converged ? field.whole : field.real;
   result.energy = field.real.energy;
   result.waves = field.waves;
-  result.iterations = field.real.iterations;
+  result.iterations = field.iterations;
   result.converged = field.real.converged && field.whole.converged;
   result.reason = last.reason;
   if (request.mesh) {

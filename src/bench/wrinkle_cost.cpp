@@ -51,7 +51,7 @@ std::vector<WrinkleCost> wrinkle_costs(cloth::WrinkleRequest request,
       solve[run] = report.field.solve_s;
       phase[run] = report.field.phase_s;
       cost.vertices = report.vertices;
-      cost.iterations = report.field.real.iterations;
+      cost.iterations = report.field.iterations;
       cost.converged = report.field.real.converged && report.field.whole.converged;
       cost.waves = report.field.waves;
       cost.max_amplitude = report.max_amplitude;

@@ -66,10 +66,12 @@ struct Arguments {
     options.flag(
         "--free-held", free_held,
         "Waves also where the surface was held while draping; without it their amplitude is 0 there");
-    options.add("--without", without, Values::all_given, "v1|v2|relaxation",
+    options.add("--without", without, Values::all_given, "v1|v2|relaxation|chords|noise",
                 described("Leave something out, to see what it does: v1 (waves lean with the surface's "
-                          "curvature), v2 (waves bulge sideways) or relaxation (phases need not close "
-                          "where there are no waves); may be given more than once"));
+                          "curvature), v2 (waves bulge sideways), relaxation (phases need not close "
+                          "where there are no waves), chords (what facets of a curved surface lack in "
+                          "length is no compression) or noise (compression below rounding seeds no "
+                          "waves); may be given more than once"));
     options.add("--curvature", curvature, "EDGES|mid-edge",
                 described("From quadratics fitted over so many edges round a vertex (default 2), or mid-edge "
                           "normals"));
@@ -139,7 +141,10 @@ cloth::WrinkleScene scene_of(const Arguments& arguments) {
   if (!arguments.vertices.empty() || !arguments.seed.empty())
     throw Error(ExitCode::bad_input, "--vertices and --seed are for --example: a file has its own mesh");
   if (std::filesystem::path(arguments.input).extension() == ".ply") return cloth::read_base(arguments.input);
-  return cloth::base_of(cloth::load_drape(arguments.input), arguments.solved.folder());
+  cloth::WrinkleScene scene = cloth::base_of(cloth::load_drape(arguments.input), arguments.solved.folder());
+  // The TFW authors' set-ups stay as their own program has them.
+  scene.chords = std::filesystem::path(arguments.input).extension() != ".json";
+  return scene;
 }
 
 bool is_sequence(const Arguments& arguments) {
@@ -154,8 +159,12 @@ cloth::WrinkleRequest request_of(const Arguments& arguments) {
   request.rule =
       arguments.rule == "paper" ? wrinkle::WrinkleFreeRule::paper : wrinkle::WrinkleFreeRule::authors;
   for (const std::string& term : arguments.without) {
-    one_of("--without", term, {"v1", "v2", "relaxation"});
-    (term == "v1" ? request.v1 : term == "v2" ? request.v2 : request.relaxed_integrability) = false;
+    one_of("--without", term, {"v1", "v2", "relaxation", "chords", "noise"});
+    (term == "v1"           ? request.v1
+     : term == "v2"         ? request.v2
+     : term == "relaxation" ? request.relaxed_integrability
+     : term == "chords"     ? request.chords
+                            : request.noise) = false;
   }
   if (arguments.curvature == "mid-edge")
     request.curvature.kind = wrinkle::CurvatureFit::mid_edge;
@@ -205,7 +214,9 @@ ordered_json to_json(const cloth::WrinkleReport& report) {
           {"energy_J", field.real.energy},
           {"energy_whole_periods_J", field.whole.energy},
           {"kkt_scaled", field.real.kkt},
-          {"iterations", field.real.iterations},
+          {"iterations", field.iterations},
+          {"solves", field.solves},
+          {"factorisations", field.factorisations},
           {"converged", field.real.converged && field.whole.converged},
           {"reason", field.real.converged ? field.whole.reason : field.real.reason},
           {"max_amplitude_m", report.max_amplitude},
@@ -213,6 +224,8 @@ ordered_json to_json(const cloth::WrinkleReport& report) {
           {"waves", field.waves},
           {"waves_round", field.count.round},
           {"waves_length_m", field.count.length},
+          {"waves_above_tenth", field.above_tenth.waves},
+          {"wavelength_m", field.wavelength},
           {"periods", field.whole.waves.period.size()},
           {"phase_residual", field.phase_residual},
           {"solve_s", field.solve_s},
@@ -362,8 +375,8 @@ int run_wrinkle(Arguments& arguments) {
       fmt::format("{}{} vertices, {} of {} faces without waves: {:.4g} waves, at most {:.4g} mm high, "
                   "{:.9g} J after {} steps ({}) in {:.3f} s",
                   converged ? "" : "NOT CONVERGED, ", report.vertices, report.wrinkle_free_faces,
-                  report.faces, field.waves, 1e3 * report.max_amplitude, field.whole.energy,
-                  field.real.iterations, field.real.reason, report.wall_s));
+                  report.faces, field.waves, 1e3 * report.max_amplitude, field.whole.energy, field.iterations,
+                  field.real.reason, report.wall_s));
   if (report.max_amplitude == 0) log::notice("nothing wrinkles: no face is compressed enough");
   for (const cloth::WrinkleOutput& output : report.outputs)
     log::notice(fmt::format("→ {}", output.path.string()));

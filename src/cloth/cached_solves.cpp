@@ -81,16 +81,16 @@ void members(auto& a, Is<shell::Equilibrium> auto& value) {
 // --- what a field depends on, and what it is
 
 void members(auto& a, Is<wrinkle::FaceForms> auto& value) {
-  auto& [rest, strain, second_form] = value;
-  a(rest, strain, second_form);
+  auto& [rest, strain, second_form, noise] = value;
+  a(rest, strain, second_form, noise);
 }
 void members(auto& a, Is<wrinkle::Model> auto& value) {
   auto& [material, v1, v2, curvature_factor, crest_compression, relaxed_integrability] = value;
   a(material, v1, v2, curvature_factor, crest_compression, relaxed_integrability);
 }
 void members(auto& a, Is<wrinkle::SolveOptions> auto& value) {
-  auto& [max_iterations, kkt, energy, fixed_periods] = value;
-  a(max_iterations, kkt, energy, fixed_periods);
+  auto& [max_iterations, kkt, energy, fixed_periods, trust, target] = value;
+  a(max_iterations, kkt, energy, fixed_periods, trust, target);
 }
 void members(auto& a, Is<wrinkle::FieldOptions> auto& value) {
   auto& [solve, frequency, local_law, all_starts] = value;
@@ -105,8 +105,9 @@ void members(auto& a, Is<wrinkle::SolveStep> auto& value) {
   a(iteration, seconds, energy);
 }
 void members(auto& a, Is<wrinkle::Solution> auto& value) {
-  auto& [waves, start_energy, energy, kkt, iterations, converged, reason, trace] = value;
-  a(waves, start_energy, energy, kkt, iterations, converged, reason, trace);
+  auto& [waves, start_energy, energy, kkt, iterations, assemblies, factorisations, converged, reason, trace] =
+      value;
+  a(waves, start_energy, energy, kkt, iterations, assemblies, factorisations, converged, reason, trace);
 }
 void members(auto& a, Is<wrinkle::FieldStart> auto& value) {
   auto& [frequency, start_energy, energy, iterations, converged] = value;
@@ -117,9 +118,10 @@ void members(auto& a, Is<wrinkle::WaveCount> auto& value) {
   a(waves, round, length);
 }
 void members(auto& a, Is<wrinkle::Field> auto& value) {
-  auto& [real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, solve_s,
-         phase_s] = value;
-  a(real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, solve_s, phase_s);
+  auto& [real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, above_tenth,
+         wavelength, solves, iterations, factorisations, solve_s, phase_s] = value;
+  a(real, whole, one_form, phase, released, starts, trace, phase_residual, waves, count, above_tenth,
+    wavelength, solves, iterations, factorisations, solve_s, phase_s);
 }
 
 namespace {

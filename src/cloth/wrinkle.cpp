@@ -17,6 +17,8 @@
 #include "io/ply.h"
 #include "io/wrinkle_field.h"
 #include "shell/carry.h"
+#include "wrinkle/base_check.h"
+#include "wrinkle/facets.h"
 
 namespace plisse::cloth {
 namespace {
@@ -46,6 +48,15 @@ wrinkle::Model model_of(const WrinkleRequest& request) {
           request.curvature_factor,
           request.crest_compression,
           request.relaxed_integrability};
+}
+
+std::vector<wrinkle::FaceForms> forms_of(const WrinkleRequest& request) {
+  const wrinkle::BaseSurface& surface = request.scene.surface;
+  auto forms = wrinkle::face_forms(surface, request.curvature);
+  const bool chords = request.chords && request.scene.chords;
+  if (chords) wrinkle::correct_chords(forms);
+  if (request.noise) wrinkle::find_noise(forms, surface, request.scene.material, chords);
+  return forms;
 }
 
 WrinkleScene read_base(const fs::path& file) {
@@ -78,7 +89,7 @@ WrinkleScene read_base(const fs::path& file) {
 WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   shell::Shell shell = shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
-  WrinkleScene result{scene.name, {}, scene.material, {}};
+  WrinkleScene result{scene.name, {}, scene.material, {}, true};
   result.surface.positions = scene.start;
   if (!scene.solved) {
     const SolvedCache answers(cache);
@@ -109,7 +120,9 @@ WrinkleReport wrinkle_field(const WrinkleRequest& request) {
   const double began = wall_seconds();
   check_outputs(request);
   const wrinkle::BaseSurface& surface = request.scene.surface;
-  const auto forms = wrinkle::face_forms(surface, request.curvature);
+  const auto forms = forms_of(request);
+  for (const wrinkle::BaseFault& fault : wrinkle::base_faults(surface.topology, forms))
+    log::warn(fmt::format("{}: {}", request.scene.name, fault.text));
   const auto free = wrinkle::wrinkle_free_faces(forms, surface.topology, request.rule);
   WrinkleReport report;
   report.vertices = surface.topology.vertex_count;

@@ -18,6 +18,9 @@ struct WrinkleScene {
   wrinkle::BaseSurface surface;
   shell::Material material;
   std::vector<bool> held;  // one a vertex: held while draping
+  // Its facets are chords of a smooth surface that was solved for (wrinkle::correct_chords); not so of the
+  // TFW authors' set-ups, whose own program takes their strain as it is.
+  bool chords = true;
 };
 
 // A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).
@@ -33,6 +36,8 @@ struct WrinkleRequest {
   bool v1 = true, v2 = true, relaxed_integrability = true;  // ablations, see wrinkle::Model
   double curvature_factor = 1;
   bool crest_compression = false;
+  bool chords = true;    // take the facets' part out of the compression, where the scene says so too
+  bool noise = true;     // compression that is nothing but noise seeds no waves (wrinkle::find_noise)
   bool pin_held = true;  // no amplitude where the surface is held
   wrinkle::FieldOptions options;
   std::filesystem::path
@@ -62,6 +67,9 @@ struct WrinkleReport {
 };
 
 WrinkleReport wrinkle_field(const WrinkleRequest& request);
+
+// What its base surface is to the solver: the forms of each face, chords and noise seen to.
+std::vector<wrinkle::FaceForms> forms_of(const WrinkleRequest& request);
 
 // Material and ablations, for the solver.
 wrinkle::Model model_of(const WrinkleRequest& request);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/atomic_file.h"
 #include "base/clock.h"
@@ -14,6 +15,7 @@
 #include "config/frames.h"
 #include "io/import.h"
 #include "io/sequence.h"
+#include "wrinkle/base_check.h"
 
 namespace plisse::cloth {
 namespace {
@@ -101,12 +103,16 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   wrinkle::FieldSequence sequence(topology, model_of(each),
                                   each.pin_held ? each.scene.held : std::vector<bool>{}, options);
   WrinkleSequenceReport report;
+  std::set<std::string> told;  // kinds of faults
   report.vertices = topology.vertex_count;
   report.faces = topology.faces.size();
   for (int n = 1; n <= picked.back() && !report.interrupted; ++n) {
     each.scene = bases.read(n);
     const wrinkle::BaseSurface& surface = each.scene.surface;
-    const auto forms = wrinkle::face_forms(surface, each.curvature);
+    const auto forms = forms_of(each);
+    for (const wrinkle::BaseFault& fault : wrinkle::base_faults(topology, forms))
+      if (told.insert(fault.kind).second)  // once, or long clips would drown in them
+        log::warn(fmt::format("frame {}: {}", n, fault.text));
     const auto free = wrinkle::wrinkle_free_faces(forms, topology, each.rule);
     WrinkleSequenceFrame frame;
     frame.frame = n;

@@ -1,6 +1,9 @@
 // Equations (20)–(26) with the corrections of docs/wrinkle.md, each face a polynomial of degree eight.
 #include "wrinkle/energy.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "shell/stretching.h"
 
 namespace plisse::wrinkle {
@@ -77,6 +80,8 @@ FaceEnergy::FaceEnergy(const FaceForms& forms, const Model& model) : gradient_(f
     const double bent = principal.crest.dot(forms.second_form * principal.crest);
     curvature_ = model.material.young * bent * bent;
   }
+  compression_ =
+      std::max(-(principal.compression + model.material.poisson * std::max(principal.tension, 0.0)), 0.0);
   curvature_ *= model.curvature_factor;
   // W³ = shear a² ‖dφᵀda + daᵀdφ‖². Without v₂ the cos 2φ part of the strain, ½(daᵀda − a²dφᵀdφ), stays
   // whole.
@@ -158,6 +163,30 @@ double FaceEnergy::hessian(const LocalVector& x, LocalVector& first, LocalMatrix
   second.bottomRightCorner<2, 2>() = by_pp;
   second *= scale_;
   return t.value;
+}
+
+double FaceEnergy::magnitude(const LocalVector& x) const {
+  const Terms t = terms(x);
+  const double stress = stress_.cwiseAbs().maxCoeff();
+  return scale_ *
+         (std::abs(constant_) + 2 * stress * (t.gg + t.means.second * t.pp) + quartic_a_ * t.gg * t.gg +
+          t.means.second *
+              (aligned_ * t.gg * t.pp + crossed_ * t.gp * t.gp + curvature_ + bending_ * t.pp * t.pp) +
+          quartic_ * t.means.fourth * t.pp * t.pp);
+}
+
+void FaceEnergy::metric(const LocalVector& x, LocalMatrix& metric) const {
+  const Means means(x.head<3>());
+  const double pp = x.tail<2>().squaredNorm(), gg = (gradient_ * x.head<3>()).squaredNorm();
+  // The base surface's stress along dφ, what amplitudes take up, and s₀, which they ought to.
+  const double along = pp > 0 ? (stress_ * x.tail<2>()).norm() / std::sqrt(pp) : 0;
+  const double weight = 2 * scale_ * (along + square_ * (means.second * pp / 2 + gg / 2 + compression_));
+  // Where amplitudes are next to nothing phases still change no faster than their neighbours'.
+  constexpr double least = 1e-2;
+  const double height = means.second + least * 2 * compression_ / (pp + 1e-6 * gradient_.squaredNorm());
+  metric.setZero();
+  metric.topLeftCorner<3, 3>() = weight * (pp * Means::second_hessian() + gradient_.transpose() * gradient_);
+  metric.bottomRightCorner<2, 2>() = weight * height * Matrix2d::Identity();
 }
 
 }  // namespace plisse::wrinkle

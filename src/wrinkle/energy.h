@@ -45,6 +45,15 @@ class FaceEnergy {
   double gradient(const LocalVector& x, LocalVector& first) const;
   double hessian(const LocalVector& x, LocalVector& first, LocalMatrix& second) const;
 
+  // The sum of its summands' absolute values, J: what rounding is relative to.
+  double magnitude(const LocalVector& x) const;
+
+  // M, positive semidefinite, J by the same units as the Hessian: |dφ|²(mean of δa² + |dδa|²/|dφ|²) +
+  // (mean of a²)|δdφ|², times the stress of the compression that waves take up or ought to. What makes the
+  // Hessian indefinite is at most of this size, and where waves change by a part t of themselves it is t²
+  // times the energy that they take up.
+  void metric(const LocalVector& x, LocalMatrix& metric) const;
+
   // The relaxed energy, joules; the sum of both is the face's part of (27).
   double relaxed() const { return relaxed_; }
 
@@ -58,6 +67,7 @@ class FaceEnergy {
   double scale_ = 0;                                  // area h/4
   double constant_ = 0;                               // ‖S‖² less the relaxed one
   double curvature_ = 0;                              // W²/a²
+  double compression_ = 0;                            // s₀, where positive
   double square_ = 0;                                 // α/2 + β: ‖vvᵀ‖² = square |v|⁴
   double aligned_ = 0, crossed_ = 0;                  // of |da|²|dφ|² and (da·dφ)²
   double quartic_a_ = 0, quartic_ = 0, bending_ = 0;  // of |da|⁴, a⁴|dφ|⁴, a²|dφ|⁴

@@ -18,6 +18,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double near = 1e-4;  // SolveOptions::trust of a start that is all but the answer
+
 bool flat(const Waves& waves) {
   return waves.amplitude.size() == 0 || !(waves.amplitude.maxCoeff() > 0);
 }
@@ -55,7 +57,7 @@ class Search {
         problem_(whole_) {
     clamped_.resize(topology.vertex_count, false);
     // The vertices that would have waves if each face were independent.
-    const auto local = local_waves(forms, topology, problem_->live(), problem_->pinned(), model);
+    const std::vector<LocalWaves>& local = problem_->own_waves();
     VectorXd wish = VectorXd::Zero(static_cast<Index>(topology.vertex_count));
     for (std::size_t f = 0; f < local.size(); ++f) {
       if (!problem_->live()[f]) continue;
@@ -68,12 +70,15 @@ class Search {
   const Problem& problem() const { return *problem_; }
 
   void start(Field& field) {
+    if (problem_->size() == 0) {  // no face is compressed
+      best_ = solve(*problem_, flat_waves(*problem_), options_.solve);
+      return;
+    }
     std::vector<double> frequencies{1};
     if (options_.all_starts) frequencies = {1, 0.5, std::numbers::sqrt2 / 2, std::numbers::sqrt2, 2};
     std::vector<Solution> ends;
     for (const double frequency : frequencies) {
-      ends.push_back(
-          run(*problem_, initial_waves(*problem_, frequency * options_.frequency), options_.solve));
+      ends.push_back(run(*problem_, initial_waves(*problem_, frequency * options_.frequency), loosely()));
       const Solution& end = ends.back();
       field.starts.push_back(
           {frequency * options_.frequency, end.start_energy, end.energy, end.iterations, end.converged});
@@ -89,8 +94,13 @@ class Search {
       if (revived(dead)) continue;
       if (!whole_->model().relaxed_integrability || (!widened(dead) && !won_back())) break;
     }
-    if (!best_.converged && best_.iterations < options_.solve.max_iterations)
-      best_ = run(*problem_, best_.waves, options_.solve);
+  }
+
+  // To the end, from a search that was loose.
+  void polish() {
+    SolveOptions options = options_.solve;
+    options.trust = near;
+    best_ = run(*problem_, best_.waves, options);
   }
 
   void finish(Field& field) {
@@ -99,16 +109,29 @@ class Search {
       field.released[f] = whole_->live()[f] && !problem_->live()[f];
     field.real = std::move(best_);
     field.trace = std::move(trace_);
+    field.iterations = iterations_;
+    field.factorisations = factorisations_;
+    field.solves = solves_;
   }
 
  private:
   // A release must lower the energy by at least this share of the energy above the relaxed one.
   static constexpr double worth = 1e-5;
 
-  // A try that shows no success in this many steps is given up.
-  SolveOptions brief() const {
+  // Minima are compared before they are polished: the last tenths of a step change no choice between them.
+  SolveOptions loosely() const {
     SolveOptions result = options_.solve;
+    result.kkt = std::max(1e-4, result.kkt);
+    result.energy = std::max(1e-5, result.energy);
+    return result;
+  }
+  // Of a changed field, with most of it as before. A try that shows no success in this many steps is given
+  // up.
+  SolveOptions brief() const {
+    SolveOptions result = loosely();
     result.max_iterations = std::min(result.max_iterations, 60);
+    result.trust = 0.1;
+    result.target = best_.energy;
     return result;
   }
 
@@ -120,6 +143,8 @@ class Search {
         trace_.push_back({iterations_ + step.iteration, began + step.seconds, step.energy});
     }
     iterations_ += solution.iterations;
+    factorisations_ += solution.factorisations;
+    ++solves_;
     return solution;
   }
 
@@ -155,7 +180,7 @@ class Search {
       problem_->copy_patch(faces, ends[lowest].waves, best.waves);
     }
     if (!mixed) return best;
-    return run(*problem_, best.waves, options_.solve);
+    return run(*problem_, best.waves, loosely());
   }
 
   // Waves for vertices with a = 0 that should have some, without a release.
@@ -243,7 +268,7 @@ class Search {
   std::shared_ptr<const Problem> whole_, problem_;  // without released faces; with the current ones
   Solution best_;
   std::vector<SolveStep> trace_;
-  int iterations_ = 0;
+  int iterations_ = 0, factorisations_ = 0, solves_ = 0;
   double begin_ = wall_seconds();
 };
 
@@ -270,6 +295,10 @@ void read_off(const Problem& problem, Field& field) {
   field.count =
       count_waves(problem.topology(), problem.forms(), problem.live(), waves.amplitude, field.one_form);
   field.waves = field.count.waves;
+  field.above_tenth =
+      count_waves(problem.topology(), problem.forms(), problem.live(), waves.amplitude, field.one_form, 0.1);
+  field.wavelength = wavelength_at_highest(problem.topology(), problem.forms(), problem.live(),
+                                           waves.amplitude, field.one_form);
 }
 
 Field by_local_law(const Problem& problem, const std::vector<bool>& clamped) {
@@ -297,15 +326,22 @@ Field solve_field(const shell::Topology& topology, const std::vector<FaceForms>&
   Search search(topology, forms, model, wrinkle_free, clamped, options);
   search.start(field);
   search.release();
+  search.polish();
   search.finish(field);
   field.solve_s = wall_seconds() - begin;
   const double phase_begin = wall_seconds();
   const Problem& problem = search.problem();
   SolveOptions fixed = options.solve;
   fixed.fixed_periods = true;
+  fixed.trust = near;
   field.whole = field.real.waves.period.size() == 0
                     ? field.real
                     : solve(problem, with_whole_periods(problem, field.real.waves), fixed);
+  if (field.real.waves.period.size() > 0) {
+    field.iterations += field.whole.iterations;
+    field.factorisations += field.whole.factorisations;
+    ++field.solves;
+  }
   read_off(problem, field);
   field.phase_s = wall_seconds() - phase_begin;
   return field;

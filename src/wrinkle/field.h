@@ -37,7 +37,10 @@ struct Field {
   std::vector<SolveStep> trace;              // over all solves with real periods, the lowest energy so far
   double phase_residual = 0, waves = 0;      // see periods.h; waves = count.waves
   WaveCount count;
-  double solve_s = 0, phase_s = 0;  // seconds
+  WaveCount above_tenth;  // the same among vertices above a tenth of the highest amplitude
+  double wavelength = 0;  // at the highest crest, metres
+  int solves = 0, iterations = 0, factorisations = 0;  // of all together
+  double solve_s = 0, phase_s = 0;                     // seconds
 };
 
 // Faces whose corners all have amplitude 0 in the result are released, as in section 5.1, if that lowers the

@@ -22,9 +22,10 @@ struct Reduced {
 
 Reduced reduced_hessian(const Problem& problem, const VectorXd& x) {
   const Index begin = problem.period_begin(), count = problem.size() - begin;
-  Eigen::SparseMatrix<double> lower = problem.pattern();
+  Problem::Curvature curvature(problem);
   VectorXd first;
-  problem.hessian(x, first, lower, 1);
+  curvature.at(x, first);
+  Eigen::SparseMatrix<double> lower = curvature.exact() + curvature.nearest();
   MatrixXd columns(problem.size(), count);
   for (Index k = 0; k < count; ++k)
     columns.col(k) = lower.selfadjointView<Eigen::Lower>() * VectorXd::Unit(problem.size(), begin + k);

@@ -1,9 +1,14 @@
 #include "wrinkle/problem.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "wrinkle/local_waves.h"
 #include "wrinkle/patches.h"
@@ -45,18 +50,34 @@ std::vector<bool> live_faces(const shell::Topology& topology, const std::vector<
   return live;
 }
 
-// Removes this share of the negative eigenvalues, in the units given by `scale` (per row).
-void lift(LocalMatrix& matrix, const LocalVector& scale, double share) {
-  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+// Less the negative eigenvalues, in the units given by `scale` (per row); 0 where there is none.
+LocalMatrix nearest_lift(const LocalMatrix& matrix, const LocalVector& scale) {
+  const LocalMatrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  LocalMatrix lift = LocalMatrix::Zero();
   // Most are positive definite already; a Cholesky factorisation finds this at a tenth of the cost.
-  if (Eigen::LLT<LocalMatrix>(matrix).info() != Eigen::Success) {
-    const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(matrix);
-    matrix = eigen.eigenvectors() *
-             (eigen.eigenvalues() - share * eigen.eigenvalues().cwiseMin(0)).asDiagonal() *
-             eigen.eigenvectors().transpose();
+  if (Eigen::LLT<LocalMatrix>(scaled).info() == Eigen::Success) return lift;
+  const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(scaled);
+  for (Index k = 0; k < 5; ++k) {  // in ascending order
+    if (!(eigen.eigenvalues()[k] < 0)) break;
+    const LocalVector v = eigen.eigenvectors().col(k).cwiseQuotient(scale);
+    lift -= eigen.eigenvalues()[k] * v * v.transpose();
   }
-  const LocalVector back = scale.cwiseInverse();
-  matrix = back.asDiagonal() * matrix * back.asDiagonal();
+  return lift;
+}
+
+// The least of a few shares of the metric that makes the sum positive semidefinite; where none does, as
+// above.
+LocalMatrix metric_lift(const LocalMatrix& matrix, const LocalMatrix& metric, const LocalVector& scale) {
+  const LocalMatrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal(),
+                    measure = scale.asDiagonal() * metric * scale.asDiagonal();
+  constexpr double rounding = 1e-10;
+  const double shift = rounding * scaled.diagonal().cwiseAbs().sum();
+  for (const double share : {0.0, 0.02, 0.1, 0.3, 0.7, 1.5, 3.0}) {
+    LocalMatrix sum = scaled + share * measure;
+    sum.diagonal().array() += shift;
+    if (Eigen::LLT<LocalMatrix>(sum).info() == Eigen::Success) return share * metric;
+  }
+  return nearest_lift(matrix, scale);
 }
 
 }  // namespace
@@ -76,9 +97,9 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
     amplitude_unknown_.push_back(pinned_[v] ? -1 : amplitude_count_++);
   size_ = period_begin() + static_cast<Index>(complex_.periods);
 
-  const std::vector<LocalWaves> own = local_waves(forms_, topology_, live_, pinned_, model_);
+  own_waves_ = local_waves(forms_, topology_, live_, pinned_, model_);
   double amplitude = 0, frequency = 0;
-  for (const LocalWaves& w : own) {
+  for (const LocalWaves& w : own_waves_) {
     const double rate = w.gradient.norm();
     frequency = std::max(frequency, rate);
     if (rate > 0) amplitude = std::max(amplitude, std::sqrt(2 * std::max(w.compression, 0.0)) / rate);
@@ -88,7 +109,7 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
   upper_ = VectorXd::Zero(amplitude_count_);
   for (const auto& patch : patches(topology_, live_)) {
     double strongest = 0;
-    for (const std::uint32_t f : patch) strongest = std::max(strongest, own[f].compression);
+    for (const std::uint32_t f : patch) strongest = std::max(strongest, own_waves_[f].compression);
     const double longest = PatchGraph(topology_, forms_, patch).diameter() / (2 * std::numbers::pi),
                  most = std::max(std::sqrt(2 * strongest) * longest, model_.material.thickness) /
                         amplitude_scale_;
@@ -106,7 +127,7 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
       if (!wrinkle_free_[f]) relaxed_energy_ += still.relaxed() + still.value(LocalVector::Zero());
       continue;
     }
-    Face face{f, FaceEnergy(forms_[f], model_), {}, {}, {}};
+    Face face{f, FaceEnergy(forms_[f], model_), {}, {}};
     for (const std::uint32_t v : topology_.faces[f]) face.unknown.push_back(amplitude_unknown_[v]);
     relaxed_energy_ += face.energy.relaxed();
     const auto& jumps = complex_.jumps[f];
@@ -122,27 +143,53 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
         if (i >= j && j >= 0) entries.emplace_back(i, j, 0.0);
       }
     }
+    face.part = part_count_;
+    part_count_ += face.unknown.size() * (face.unknown.size() + 1) / 2;
     faces_.push_back(std::move(face));
   }
   for (Index i = 0; i < size_; ++i) entries.emplace_back(i, i, 0.0);
   pattern_.resize(size_, size_);
   pattern_.setFromTriplets(entries.begin(), entries.end());
   pattern_.makeCompressed();
-  for (Face& face : faces_) {
+  // Two unknowns of a face are never the same one but on the diagonal (phase vertices of a triangle are
+  // distinct vertices).
+  std::vector<Index> slots;  // of each face's number, −1 where none
+  first_source_.assign(static_cast<std::size_t>(pattern_.nonZeros()) + 1, 0);
+  for (const Face& face : faces_) {
     for (std::size_t i = 0; i < face.unknown.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         const Index row = std::max(face.unknown[i], face.unknown[j]),
                     column = std::min(face.unknown[i], face.unknown[j]);
         if (column < 0) {
-          face.slot.push_back(-1);
+          slots.push_back(-1);
           continue;
         }
         const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
         const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
-        face.slot.push_back(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
+        slots.push_back(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
+        ++first_source_[static_cast<std::size_t>(slots.back()) + 1];
       }
     }
   }
+  std::partial_sum(first_source_.begin(), first_source_.end(), first_source_.begin());
+  source_.resize(first_source_.back());
+  std::vector<std::uint32_t> next(first_source_.begin(), first_source_.end() - 1);
+  for (std::size_t k = 0; k < slots.size(); ++k)
+    if (slots[k] >= 0) source_[next[static_cast<std::size_t>(slots[k])]++] = static_cast<std::uint32_t>(k);
+}
+
+void Problem::gather(const std::vector<double>& parts, SparseMatrix& sum) const {
+  constexpr std::size_t grain = 4096;
+  double* values = sum.valuePtr();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, first_source_.size() - 1, grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t slot = range.begin(); slot < range.end(); ++slot) {
+                        double value = 0;
+                        for (std::size_t k = first_source_[slot]; k < first_source_[slot + 1]; ++k)
+                          value += parts[source_[k]];
+                        values[slot] = value;
+                      }
+                    });
 }
 
 VectorXd Problem::pack(const Waves& waves) const {
@@ -181,6 +228,12 @@ void Problem::copy_patch(const std::vector<std::uint32_t>& faces, const Waves& f
   }
 }
 
+LocalVector Problem::scales() const {
+  LocalVector scale;
+  scale << amplitude_scale_, amplitude_scale_, amplitude_scale_, frequency_scale_, frequency_scale_;
+  return scale;
+}
+
 LocalVector Problem::local(const Face& face, const VectorXd& x) const {
   LocalVector result;
   for (Index i = 0; i < 3; ++i) {
@@ -202,10 +255,27 @@ void Problem::add_gradient(const Face& face, const LocalVector& first, VectorXd&
     sum[face.unknown[static_cast<std::size_t>(3 + i)]] += face.phase.col(i).dot(first.tail<2>());
 }
 
+// Of each live face on all cores, then summed in their order.
+template <typename Value>
+double Problem::sum_over_faces(const VectorXd& x, const Value& value) const {
+  std::vector<double> values(faces_.size());
+  constexpr std::size_t grain = 512;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces_.size(), grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t f = range.begin(); f < range.end(); ++f)
+                        values[f] = value(faces_[f].energy, local(faces_[f], x));
+                    });
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
 double Problem::energy(const VectorXd& x) const {
-  double sum = 0;
-  for (const Face& face : faces_) sum += face.energy.value(local(face, x));
-  return sum;
+  return sum_over_faces(x, [](const FaceEnergy& energy, const LocalVector& at) { return energy.value(at); });
+}
+
+double Problem::rounding(const VectorXd& x) const {
+  return 4 * std::numeric_limits<double>::epsilon() *
+         sum_over_faces(x,
+                        [](const FaceEnergy& energy, const LocalVector& at) { return energy.magnitude(at); });
 }
 
 VectorXd Problem::face_energies(const VectorXd& x) const {
@@ -225,45 +295,85 @@ double Problem::gradient(const VectorXd& x, VectorXd& first) const {
   return sum;
 }
 
-double Problem::hessian(const VectorXd& x, VectorXd& first, Eigen::SparseMatrix<double>& second,
-                        double lifted) const {
-  first = VectorXd::Zero(size_);
-  std::fill_n(second.valuePtr(), second.nonZeros(), 0.0);
-  double sum = 0;
-  LocalVector gradient, scale;
-  scale << amplitude_scale_, amplitude_scale_, amplitude_scale_, frequency_scale_, frequency_scale_;
-  LocalMatrix hessian;
-  Eigen::MatrixXd map, part;
-  Eigen::Matrix<double, 5, 6> small_map;
-  Eigen::Matrix<double, 6, 6> small_part;
-  for (const Face& face : faces_) {
-    sum += face.energy.hessian(local(face, x), gradient, hessian);
-    add_gradient(face, gradient, first);
-    if (lifted > 0) lift(hessian, scale, lifted);
-    const auto count = static_cast<Index>(face.unknown.size());
-    const auto mapped = [&](auto& to_local, auto& mapped_hessian) {
-      to_local.setZero(5, count);
-      for (Index i = 0; i < 3; ++i) to_local(i, i) = amplitude_scale_;
-      to_local.bottomRightCorner(2, count - 3) = face.phase;
-      mapped_hessian.noalias() = to_local.transpose() * (hessian * to_local).eval();
-    };
-    // Most faces have no jump, and small matrices of fixed size cost a third.
-    if (count == 6) {
-      mapped(small_map, small_part);
-      part = small_part;
-    } else {
-      mapped(map, part);
-    }
-    std::size_t slot = 0;
-    for (Index i = 0; i < count; ++i) {
-      for (Index j = 0; j <= i; ++j, ++slot) {
-        // Two unknowns of a face are never the same one but on the diagonal (phase vertices of a triangle are
-        // distinct vertices).
-        if (face.slot[slot] >= 0) second.valuePtr()[face.slot[slot]] += part(i, j);
-      }
-    }
+void Problem::place(const Face& face, const LocalMatrix& matrix, std::vector<double>& parts) const {
+  double* part = &parts[face.part];
+  const double scale = amplitude_scale_;
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j <= i; ++j) *part++ = scale * scale * matrix(i, j);
+  for (Index i = 0; i < face.phase.cols(); ++i) {
+    const Eigen::Vector2d p = face.phase.col(i);
+    for (Index j = 0; j < 3; ++j) *part++ = scale * (p.x() * matrix(3, j) + p.y() * matrix(4, j));
+    const Eigen::Vector2d across = matrix.bottomRightCorner<2, 2>() * p;
+    for (Index j = 0; j <= i; ++j) *part++ = across.dot(face.phase.col(j));
   }
-  return sum;
+}
+
+Problem::Curvature::Curvature(const Problem& problem)
+    : problem_(problem),
+      exact_(problem.pattern()),
+      states_(problem.faces_.size()),
+      hessians_(problem.faces_.size()),
+      parts_(problem.part_count_) {}
+
+// each(index of a face) gives its part, on all cores.
+template <typename Each>
+void Problem::Curvature::sum(SparseMatrix& matrix, const Each& each) {
+  constexpr std::size_t grain = 256;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, problem_.faces_.size(), grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t f = range.begin(); f < range.end(); ++f)
+                        problem_.place(problem_.faces_[f], each(f), parts_);
+                    });
+  problem_.gather(parts_, matrix);
+}
+
+template <typename Each>
+const Problem::SparseMatrix& Problem::Curvature::made(Part& part, const Each& each) {
+  if (!part.known) {
+    if (part.matrix.size() == 0) part.matrix = problem_.pattern();
+    sum(part.matrix, each);
+    part.known = true;
+  }
+  return part.matrix;
+}
+
+double Problem::Curvature::at(const VectorXd& x, VectorXd& first) {
+  const std::vector<Face>& faces = problem_.faces_;
+  std::vector<double> values(faces.size());
+  std::vector<LocalVector> gradients(faces.size());
+  nearest_.known = lift_.known = metric_.known = false;
+  sum(exact_, [&](std::size_t f) -> const LocalMatrix& {
+    states_[f] = problem_.local(faces[f], x);
+    values[f] = faces[f].energy.hessian(states_[f], gradients[f], hessians_[f]);
+    return hessians_[f];
+  });
+  first = VectorXd::Zero(problem_.size_);
+  double energy = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    energy += values[f];
+    problem_.add_gradient(faces[f], gradients[f], first);
+  }
+  return energy;
+}
+
+const Problem::SparseMatrix& Problem::Curvature::nearest() {
+  return made(nearest_, [&](std::size_t f) { return nearest_lift(hessians_[f], problem_.scales()); });
+}
+
+const Problem::SparseMatrix& Problem::Curvature::lift() {
+  return made(lift_, [&](std::size_t f) {
+    LocalMatrix metric;
+    problem_.faces_[f].energy.metric(states_[f], metric);
+    return metric_lift(hessians_[f], metric, problem_.scales());
+  });
+}
+
+const Problem::SparseMatrix& Problem::Curvature::metric() {
+  return made(metric_, [&](std::size_t f) {
+    LocalMatrix metric;
+    problem_.faces_[f].energy.metric(states_[f], metric);
+    return metric;
+  });
 }
 
 double Problem::one_form_energy(const VectorXd& amplitude, const VectorXd& one_form, VectorXd& first) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wrinkle/energy.h"
+#include "wrinkle/local_waves.h"
 #include "wrinkle/phase_complex.h"
 
 namespace plisse::wrinkle {
@@ -20,6 +21,8 @@ struct Waves {
 
 class Problem {
  public:
+  using SparseMatrix = Eigen::SparseMatrix<double>;
+
   // wrinkle_free: one flag a face; those faces and their vertices have no amplitude and add no energy.
   // clamped: one flag a vertex whose amplitude is 0 as well; may be empty.
   Problem(shell::Topology topology, std::vector<FaceForms> forms, const Model& model,
@@ -32,6 +35,8 @@ class Problem {
   const std::vector<bool>& live() const { return live_; }      // one a face: carries energy
   const std::vector<bool>& pinned() const { return pinned_; }  // one a vertex: a = 0
   const std::vector<bool>& wrinkle_free() const { return wrinkle_free_; }
+
+  const std::vector<LocalWaves>& own_waves() const { return own_waves_; }  // one a face (local_waves.h)
 
   // Scales that make unknowns dimensionless: the largest √(2s₀)/|ω| and |ω| of the live faces' own
   // waves (start.h); never 0.
@@ -57,18 +62,48 @@ class Problem {
 
   // Joules, over live faces, above their relaxed energy and without the base surface's own bending.
   double energy(const Eigen::VectorXd& x) const;
+  // What rounding may make of it, J: differences of energies below that say nothing.
+  double rounding(const Eigen::VectorXd& x) const;
   // The parts of it, one a face; 0 where none is.
   Eigen::VectorXd face_energies(const Eigen::VectorXd& x) const;
   // J: the relaxed energy of the live faces, and the whole energy of faces with pinned corners that are not
   // wrinkle-free.
   double relaxed_energy() const { return relaxed_energy_; }
   double gradient(const Eigen::VectorXd& x, Eigen::VectorXd& first) const;
-  // The lower half, with a constant pattern. `lifted`: the share of every face's negative eigenvalues that is
-  // removed; 0: exact, 1: each face's part is the nearest positive semidefinite one.
-  double hessian(const Eigen::VectorXd& x, Eigen::VectorXd& first, Eigen::SparseMatrix<double>& second,
-                 double lifted) const;
+  // The second derivatives at a state: lower halves, all of the pattern, each the sum of the faces' own
+  // parts. Those that only some steps need are made when first asked for.
+  class Curvature {
+   public:
+    explicit Curvature(const Problem& problem);
+    // Another state: its energy, J, and the energy's derivatives.
+    double at(const Eigen::VectorXd& x, Eigen::VectorXd& first);
+    const SparseMatrix& exact() const { return exact_; }
+    // What makes each face's part the nearest positive semidefinite one, amplitudes and frequencies measured
+    // by the problem's scales: less their negative eigenvalues.
+    const SparseMatrix& nearest();
+    const SparseMatrix& metric();  // M, of FaceEnergy::metric
+    // As much of each face's M as makes its part positive semidefinite: cheaper, and of the same kind as M.
+    const SparseMatrix& lift();
+
+   private:
+    struct Part {
+      SparseMatrix matrix;
+      bool known = false;  // at this state
+    };
+    template <typename Each>
+    void sum(SparseMatrix& matrix, const Each& each);
+    template <typename Each>
+    const SparseMatrix& made(Part& part, const Each& each);
+
+    const Problem& problem_;
+    SparseMatrix exact_;
+    Part nearest_, lift_, metric_;
+    std::vector<LocalVector> states_;    // of each face
+    std::vector<LocalMatrix> hessians_;  // and its own part
+    std::vector<double> parts_;
+  };
   // The pattern, zeros filled in.
-  const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+  const SparseMatrix& pattern() const { return pattern_; }
 
   // The same energy of amplitudes and a one-form (radians, one an edge) that need not be closed: each face
   // takes its gradient from its first two sides, as section E.3 says. `first` by the unknowns of this
@@ -84,8 +119,15 @@ class Problem {
     FaceEnergy energy;
     std::vector<Eigen::Index> unknown;  // global, −1 where pinned; the first three are amplitudes
     Eigen::Matrix<double, 2, Eigen::Dynamic> phase;  // dφ by the unknowns from the fourth on
-    std::vector<Eigen::Index> slot;  // of pattern_.valuePtr(), lower half by rows; −1 where none
+    std::size_t part = 0;  // where its lower half by rows begins among all faces' numbers
   };
+  // A face's part by its unknowns, `part_count_` numbers over all faces; and their sums, in the faces' order,
+  // so that the number of threads does not matter.
+  void place(const Face& face, const LocalMatrix& matrix, std::vector<double>& parts) const;
+  void gather(const std::vector<double>& parts, SparseMatrix& sum) const;
+  template <typename Value>
+  double sum_over_faces(const Eigen::VectorXd& x, const Value& value) const;
+  LocalVector scales() const;  // of local variables
   LocalVector local(const Face& face, const Eigen::VectorXd& x) const;
   void add_gradient(const Face& face, const LocalVector& first, Eigen::VectorXd& sum) const;
 
@@ -94,13 +136,16 @@ class Problem {
   Model model_;
   std::vector<bool> wrinkle_free_, pinned_, live_;
   PhaseComplex complex_;  // of the live faces; of all where integrability is not relaxed
+  std::vector<LocalWaves> own_waves_;
   std::vector<Eigen::Index> amplitude_unknown_;  // of a vertex, −1 where pinned
   Eigen::Index amplitude_count_ = 0, size_ = 0;
   double relaxed_energy_ = 0;
   double amplitude_scale_ = 1, frequency_scale_ = 1;
   Eigen::VectorXd upper_;
   std::vector<Face> faces_;
-  Eigen::SparseMatrix<double> pattern_;
+  std::size_t part_count_ = 0;
+  SparseMatrix pattern_;
+  std::vector<std::uint32_t> first_source_, source_;  // of each number of the pattern: the faces' numbers
 };
 
 }  // namespace plisse::wrinkle

@@ -211,7 +211,7 @@ std::optional<FieldSequence::State> FieldSequence::begun(const Problem& problem,
                                                          const std::vector<bool>& wrinkle_free,
                                                          SequenceFrame& frame) const {
   const Field field = solve_field(topology_, forms, model_, wrinkle_free, clamped_, options_.field);
-  frame.iterations += field.real.iterations + field.whole.iterations;
+  frame.iterations += field.iterations;
   if (flat(field.whole.waves.amplitude)) return std::nullopt;
   // Faces that were released there are live here, as later frames may need waves on them.
   const Solution solution =
@@ -234,7 +234,10 @@ SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
     state = std::move(next);
     return solution;
   };
-  if (now_) {
+  if (problem.size() == 0) {  // no face is compressed
+    now_.reset();
+    before_.reset();
+  } else if (now_) {
     if (before_) {
       go_on(*before_);
       if (flat(before_->field.amplitude)) before_.reset();

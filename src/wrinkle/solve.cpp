@@ -1,8 +1,14 @@
-// Projected Newton (D. Bertsekas, Projected Newton methods for optimization problems with simple constraints,
-// 1982) in place of the paper's sequential quadratic programs: amplitudes that stand at 0 and would go below
-// are held there, the others and the phases take a Newton step along the projected line. The Hessian is the
-// exact one where that is positive definite on the unknowns that move, else the sum of the faces' own parts
-// projected to positive semidefinite ones.
+// Descent with bounds on the amplitudes, in place of the paper's sequential quadratic programs. Two kinds of
+// steps, both from the energy's second derivatives at the state, on the unknowns that move (D. Bertsekas,
+// Projected Newton methods for optimization problems with simple constraints, 1982):
+//
+// - the first few are projected Newton steps: each face's own part of the Hessian is made positive
+// semidefinite,
+//   and the step is taken whole where that lowers the energy. They go far, and choose among the many minima.
+// - all others are of a trust region, (H + λM) s = −g (K. Levenberg 1944, D. Marquardt 1963; J. Moré and
+//   D. Sorensen, Computing a trust region step, 1983), where M measures a change of waves by the waves
+//   themselves. Along the soft directions of long waves, where heights make up for frequencies, steps are as
+//   long as the model holds, and all other unknowns are as good as solved for.
 #include "wrinkle/solve.h"
 
 #include <Eigen/OrderingMethods>
@@ -58,63 +64,269 @@ class Factor {
   shell::Cholesky cholesky_;
 };
 
-// A series of Hessians: from the exact one to one that is positive definite in any state, and on to short
-// gradient steps. The search uses the first that works; it goes one level back toward the exact one after a
-// whole step, and one level on after a failed step.
-struct Caution {
-  double lifted;   // see Problem::hessian
-  double damping;  // added to the diagonal, in its mean
-};
-constexpr std::array<Caution, 9> cautions{
-    {{0, 1e-12}, {0.03, 1e-10}, {0.2, 1e-9}, {1, 1e-9}, {1, 1e-7}, {1, 1e-5}, {1, 1e-3}, {1, 1e-1}, {1, 10}}};
-
-class Newton {
+// E(x + s) ≈ E + gᵀs + ½ sᵀHs.
+class Model {
  public:
-  static constexpr int rounds = 4;
-  explicit Newton(const Problem& problem) : problem_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
+  explicit Model(const Problem& problem)
+      : problem_(problem), second_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
 
-  // −H⁻¹ g on the unknowns that move; false where the Hessian is not positive definite. Amplitudes that this
-  // moves beyond a bound are set to the bound and the step of the others is solved again, a few times: a step
-  // that is cut off at many bounds is a descent direction only if it is very short, and amplitudes beside
-  // waves alternate at 0.
-  bool direction(const VectorXd& x, std::vector<bool> held, const Caution& caution, VectorXd& step) {
-    VectorXd first;
-    problem_.hessian(x, first, matrix_, caution.lifted);
-    const double mean = matrix_.diagonal().cwiseAbs().mean();
+  double at(const VectorXd& x) {
+    x_ = x;
+    const double energy = second_.at(x, first_);
+    ++assemblies;
+    mean_ = second_.exact().coeffs().cwiseAbs().mean();
+    if (!(mean_ > 0)) mean_ = 1;
+    return energy;
+  }
+  const VectorXd& first() const { return first_; }
+  double second(Index i) const { return second_.exact().valuePtr()[second_.exact().outerIndexPtr()[i]]; }
+
+  // Solves (H + `lifted` L + `lambda` M) s = −g, L and M of Problem::Curvature, on the unknowns that are not
+  // held; held ones go to the bound that they are close to. Amplitudes that this moves beyond a bound are
+  // held as well, and the others solved for again, in at most `rounds` rounds: a step that is cut off at many
+  // bounds is a descent direction only if it is very short, and amplitudes beside waves alternate at 0. False
+  // where the matrix is not positive definite.
+  bool step(std::vector<bool> held, double lifted, double lambda, int rounds, VectorXd& step) {
+    auto values = matrix_.coeffs();
+    values = second_.exact().coeffs();
+    if (lifted > 0) values += lifted * (lambda > 0 ? second_.lift() : second_.nearest()).coeffs();
+    if (lambda > 0) values += lambda * second_.metric().coeffs();
     // A phase where there is no amplitude is free, and one of every component is: neither has a gradient.
-    for (Index i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) += caution.damping * mean;
+    constexpr double least_shift = 1e-12, lifted_shift = 1e-9;
+    const double shift = (lambda > 0 ? least_shift : std::max(least_shift, lifted_shift * lifted)) * mean_;
+    for (Index i = 0; i < matrix_.cols(); ++i) matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += shift;
     const SparseMatrix<double> whole = matrix_;
+
     const VectorXd& upper = problem_.upper();
-    VectorXd known = VectorXd::Zero(x.size());  // the step of held unknowns; those near a bound move to it
+    VectorXd known = VectorXd::Zero(x_.size());
     for (Index i = 0; i < problem_.amplitude_count(); ++i)
-      if (held[static_cast<std::size_t>(i)]) known[i] = x[i] < upper[i] / 2 ? -x[i] : upper[i] - x[i];
+      if (held[static_cast<std::size_t>(i)]) known[i] = x_[i] < upper[i] / 2 ? -x_[i] : upper[i] - x_[i];
     for (int round = 0; round < rounds; ++round) {
-      hold(matrix_, held, mean > 0 ? mean : 1);
+      hold(matrix_, held, mean_);
+      ++factorisations;
       if (!factor_(matrix_)) return false;
-      VectorXd right = -first;
-      if (round > 0) right -= whole.selfadjointView<Eigen::Lower>() * known;
+      VectorXd right = -first_;
+      if (!known.isZero(0)) right -= whole.selfadjointView<Eigen::Lower>() * known;
       for (Index i = 0; i < right.size(); ++i)
         if (held[static_cast<std::size_t>(i)]) right[i] = 0;
-      step = factor_.solve(right);
+      step = factor_.solve(right) + known;
       bool more = false;
       for (Index i = 0; i < problem_.amplitude_count(); ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const bool low = x[i] + step[i]<0, high = x[i] + step[i]> upper[i];
+        const bool low = x_[i] + step[i]<0, high = x_[i] + step[i]> upper[i];
         if (held[at] || !(low || high)) continue;
-        known[i] = low ? -x[i] : upper[i] - x[i];
+        known[i] = step[i] = low ? -x_[i] : upper[i] - x_[i];
         held[at] = more = true;
       }
       if (!more) break;
     }
-    for (Index i = 0; i < problem_.amplitude_count(); ++i)
-      if (held[static_cast<std::size_t>(i)]) step[i] = known[i];
+    at_bounds_ = std::count(held.begin(), held.begin() + problem_.amplitude_count(), true);
     return step.allFinite();
   }
+  Index at_bounds() const { return at_bounds_; }  // amplitudes that the last step puts there
+
+  // How much the model falls by a step, J.
+  double fall(const VectorXd& step) const {
+    return -first_.dot(step) - 0.5 * step.dot(second_.exact().selfadjointView<Eigen::Lower>() * step);
+  }
+
+  int assemblies = 0, factorisations = 0;
 
  private:
   const Problem& problem_;
+  Problem::Curvature second_;
   SparseMatrix<double> matrix_;
+  VectorXd x_, first_;
+  double mean_ = 1;
+  Index at_bounds_ = 0;
   Factor factor_;
+};
+
+class Descent {
+ public:
+  Descent(const Problem& problem, const Waves& start, const SolveOptions& options)
+      : problem_(problem), options_(options), model_(problem), lambda_(options.trust) {
+    x_ = bounded(problem.pack(start));
+    held_.resize(static_cast<std::size_t>(problem.size()));
+    energy_ = model_.at(x_);
+    solution_.start_energy = energy_ + problem.relaxed_energy();
+    if (!std::isfinite(energy_) || !model_.first().allFinite())
+      throw Error(ExitCode::bad_input,
+                  "the start's energy is not finite: amplitudes or frequencies are out of all proportion");
+    note();
+  }
+
+  Solution run() {
+    const int newton = options_.trust == SolveOptions().trust ? newton_steps : 0;
+    bool far = newton > 0;
+    while (solution_.reason.empty()) {
+      solution_.kkt = kkt_residual(problem_, x_, energy_, model_.first(), options_.fixed_periods);
+      if (solution_.kkt == 0) {
+        end(true, "stationary");
+      } else if (solution_.iterations == options_.max_iterations) {
+        end(false, "too many iterations");
+      } else if (energy_ + problem_.relaxed_energy() - options_.target > hopeless * gain_) {
+        end(false, "does not come below the target");
+      } else {
+        hold_at_bounds();
+        far = far && solution_.iterations < newton && newton_step();
+        if (!far) trusted_step();
+      }
+    }
+    solution_.assemblies = model_.assemblies;
+    solution_.factorisations = model_.factorisations;
+    solution_.waves = problem_.unpack(x_);
+    solution_.energy = energy_ + problem_.relaxed_energy();
+    return std::move(solution_);
+  }
+
+ private:
+  // So many Newton steps, and none where the first would put some amplitudes to a bound and others not, more
+  // than this share of both, as on long waves in a sheet that is held by its ends: amplitudes come to
+  // alternate at 0, and what follows takes three times as many steps.
+  static constexpr int newton_steps = 8;
+  static constexpr double most_mixed = 0.15;
+  bool mixed(Index at_bounds) const {
+    const Index count = problem_.amplitude_count();
+    return static_cast<double>(std::min(at_bounds, count - at_bounds)) >
+           most_mixed * static_cast<double>(count);
+  }
+  // Shares of the lift for Newton steps, from the exact Hessian to one that is positive definite in any
+  // state. The first that works is used; after a whole step the next is tried one further to the exact one.
+  static constexpr std::array<double, 4> lifts{0, 0.03, 0.2, 1};
+
+  // λ: what counts as none; the largest from which the model's fall says how far off the least energy is, in
+  // a loose search too; from which on faces are lifted at all, and by all that they need; beyond which a step
+  // is nothing but the way down.
+  static constexpr double least_damping = 1e-7, telling_damping = 1e-3, telling_if_loose = 0.1,
+                          first_lift = 1e-3, whole_lift = 0.1, most_damping = 1e12;
+  static constexpr double loose = 1e-6;       // SolveOptions::energy from which on a search is loose
+  static constexpr double least_gain = 1e-3;  // of what the model falls
+  static constexpr double hopeless = 20;  // steps like the last that it would take to SolveOptions::target
+
+  VectorXd bounded(VectorXd x) const {
+    const Index count = problem_.amplitude_count();
+    x.head(count) = x.head(count).cwiseMax(0).cwiseMin(problem_.upper());
+    return x;
+  }
+
+  double rounding() {
+    if (rounding_ < 0) rounding_ = problem_.rounding(x_);
+    return rounding_;
+  }
+  bool stationary() const { return solution_.kkt <= options_.kkt; }
+  void end(bool converged, std::string_view reason) {
+    solution_.converged = converged;
+    solution_.reason = reason;
+  }
+  void note() {
+    solution_.trace.push_back(
+        {solution_.iterations, wall_seconds() - begin_, energy_ + problem_.relaxed_energy()});
+  }
+
+  // Bertsekas' ε-active set: close to the bound, and pushed beyond it.
+  void hold_at_bounds() {
+    const double close = std::min(1e-3, solution_.kkt);
+    const VectorXd &first = model_.first(), &upper = problem_.upper();
+    for (Index i = 0; i < problem_.size(); ++i) {
+      bool held = options_.fixed_periods && i >= problem_.period_begin();
+      if (i < problem_.amplitude_count()) {
+        const double above = x_[i], below = upper[i] - x_[i];
+        held = (above <= close && first[i] > 0 && above * model_.second(i) <= first[i]) ||
+               (below <= close && first[i] < 0 && below * model_.second(i) <= -first[i]);
+      }
+      held_[static_cast<std::size_t>(i)] = held;
+    }
+  }
+
+  void go(VectorXd to) {
+    ++solution_.iterations;
+    x_ = std::move(to);
+    gain_ = energy_;
+    energy_ = model_.at(x_);
+    gain_ -= energy_;
+    rounding_ = -1;
+    note();
+  }
+
+  // False where none lowers the energy.
+  bool newton_step() {
+    if (stationary() && gain_ <= options_.energy * energy_) {
+      end(true, "stationary");
+      return true;
+    }
+    constexpr int rounds = 4, halvings = 4;  // prefers another Hessian to a much shorter step
+    VectorXd step;
+    for (; level_ < lifts.size(); ++level_) {
+      if (!model_.step(held_, lifts[level_], 0, rounds, step)) continue;
+      if (solution_.iterations == 0 && mixed(model_.at_bounds())) return false;
+      double length = 1;
+      for (int halving = 0; halving < halvings; ++halving, length /= 2) {
+        VectorXd trial = bounded(x_ + length * step);
+        const double next = problem_.energy(trial);
+        // Armijo along the bent line.
+        if (!(next <= energy_ + 1e-4 * model_.first().dot(trial - x_) && next <= energy_)) continue;
+        if (length == 1 && level_ > 0) --level_;
+        go(std::move(trial));
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void trusted_step() {
+    VectorXd step;
+    bool indefinite = false;
+    for (; lambda_ <= most_damping; lambda_ = std::max(4 * lambda_, least_damping)) {
+      const double lifted = lambda_ < first_lift ? 0 : std::min(lambda_ / whole_lift, 1.0);
+      if (!model_.step(held_, lifted, lambda_, 1, step)) {
+        indefinite = true;
+        continue;
+      }
+      VectorXd trial = bounded(x_ + step);
+      step = trial - x_;
+      const double fall = model_.fall(step);
+      const bool telling = lambda_ <= (options_.energy < loose ? telling_damping : telling_if_loose);
+      if (telling && stationary() && std::abs(fall) <= options_.energy * energy_)
+        return end(true, "stationary");
+      if (std::abs(fall) <= rounding()) {
+        // Not even worth a look at the energy, unless it is for λ that there is so little.
+        if (telling || indefinite) {
+          if (stationary()) return end(true, "stationary");
+          if (!telling) break;
+          // One step more, since the model is finer than the energy: what is on its way to 0 comes there.
+          if (!below_rounding_ && problem_.energy(trial) <= energy_ + rounding()) {
+            below_rounding_ = true;
+            return go(std::move(trial));
+          }
+          return end(true, "what is left is below the rounding of the energy");
+        }
+        lambda_ = telling_damping / 4;  // and the loop makes it four times that
+        continue;
+      }
+      const double next = problem_.energy(trial), ratio = (energy_ - next) / fall;
+      if (!(fall > 0 && ratio >= least_gain)) continue;
+      // What has just turned out too little is not tried again at once.
+      if (ratio > 0.75 && !indefinite) lambda_ = lambda_ / 4 < least_damping ? 0 : lambda_ / 4;
+      if (ratio < 0.25) lambda_ = std::max(4 * lambda_, least_damping);
+      return go(std::move(trial));
+    }
+    end(stationary(), stationary() ? "stationary" : "no step lowers the energy any more");
+  }
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  const double begin_ = wall_seconds();
+  Model model_;
+  Solution solution_;
+  VectorXd x_;
+  double energy_ = 0;
+  std::vector<bool> held_;
+  bool below_rounding_ = false;
+  double gain_ = std::numeric_limits<double>::infinity();  // of the last step
+  double rounding_ = -1;                                   // of the energy, once it is asked for
+  std::size_t level_ = lifts.size() - 1;
+  double lambda_;
 };
 
 }  // namespace
@@ -147,79 +359,14 @@ double kkt_residual(const Problem& problem, const VectorXd& x, double energy, co
 }
 
 Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options) {
-  const double begin = wall_seconds();
-  const auto seconds = [&] { return wall_seconds() - begin; };
-  const Index amplitudes = problem.amplitude_count();
-  const auto bounded = [&](VectorXd x) {
-    x.head(amplitudes) = x.head(amplitudes).cwiseMax(0).cwiseMin(problem.upper());
-    return x;
-  };
-  Newton newton(problem);
-  VectorXd x = bounded(problem.pack(start)), first, step;
-  Solution solution;
-  double energy = problem.gradient(x, first);
-  solution.start_energy = energy + problem.relaxed_energy();
-  solution.trace.push_back({0, seconds(), solution.start_energy});
-  std::vector<bool> held(static_cast<std::size_t>(problem.size()), false);
-  std::size_t level = 3;                                  // of cautions
-  double gain = std::numeric_limits<double>::infinity();  // of the last step
-  if (!std::isfinite(energy) || !first.allFinite())
-    throw Error(ExitCode::bad_input,
-                "the start's energy is not finite: amplitudes or frequencies are out of all proportion");
-  int& iteration = solution.iterations;
-  while (true) {
-    solution.kkt = kkt_residual(problem, x, energy, first, options.fixed_periods);
-    const bool stationary = solution.kkt <= options.kkt;
-    if (solution.kkt == 0 || (stationary && gain <= options.energy * energy)) {
-      solution.converged = true;
-      solution.reason = "stationary";
-      break;
-    }
-    if (iteration == options.max_iterations) {
-      solution.reason = "too many iterations";
-      break;
-    }
-    // Bertsekas' ε-active set: close to the bound, and pushed against it.
-    const double close = std::min(1e-3, solution.kkt);
-    for (Index i = 0; i < problem.size(); ++i) {
-      held[static_cast<std::size_t>(i)] =
-          i < amplitudes
-              ? (x[i] <= close && first[i] > 0) || (x[i] >= problem.upper()[i] - close && first[i] < 0)
-              : options.fixed_periods && i >= problem.period_begin();
-    }
-    double length = 0, next = 0;
-    VectorXd trial;
-    bool down = false;
-    for (;; ++level) {
-      if (level == cautions.size()) break;
-      if (!newton.direction(x, held, cautions[level], step)) continue;
-      // Prefers another Hessian to a much shorter step.
-      const int halvings = level + 1 < cautions.size() ? 4 : 40;
-      length = 1;
-      for (int halving = 0; halving < halvings && !down; ++halving) {
-        trial = bounded(x + length * step);
-        next = problem.energy(trial);
-        // Armijo along the bent line.
-        down = next <= energy + 1e-4 * first.dot(trial - x) && next <= energy;
-        if (!down) length /= 2;
-      }
-      if (down) break;
-    }
-    if (!down) {
-      solution.converged = stationary;
-      solution.reason = stationary ? "stationary" : "no step lowers the energy any more";
-      break;
-    }
-    if (length == 1 && level > 0) --level;
-    gain = energy - next;
-    ++iteration;
-    x = trial;
-    energy = problem.gradient(x, first);
-    solution.trace.push_back({iteration, seconds(), energy + problem.relaxed_energy()});
-  }
-  solution.waves = problem.unpack(x);
-  solution.energy = energy + problem.relaxed_energy();
-  return solution;
+  if (problem.size() > 0) return Descent(problem, start, options).run();
+  Solution nothing;
+  nothing.waves = problem.unpack(VectorXd());
+  nothing.start_energy = nothing.energy = problem.relaxed_energy();
+  nothing.converged = true;
+  nothing.reason = "stationary";
+  nothing.trace.push_back({0, 0, nothing.energy});
+  return nothing;
 }
 
 }  // namespace plisse::wrinkle

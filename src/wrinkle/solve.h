@@ -1,6 +1,7 @@
-// Minimises the wrinkle energy (39): Newton's method with bounds on the amplitudes.
+// Minimises the wrinkle energy (39) with bounds on the amplitudes.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,13 @@ struct SolveOptions {
   int max_iterations = 500;
   double kkt = 1e-6;           // stop where the scaled residual is at most this and
   double energy = 1e-9;        // the last step gained at most this part of the energy above the relaxed one
-  bool fixed_periods = false;  // periods are not changed
+  bool fixed_periods = false;  // periods stay as they are
+  // λ of the trust region at the start. Less where the start is near the answer: without the Newton steps
+  // that begin a search (solve.cpp).
+  double trust = 1;
+  // J: a search that is not to end below this is given up, see Solution::reason: where a step gains less than
+  // a twentieth of what lacks to it.
+  double target = std::numeric_limits<double>::infinity();
 };
 
 struct SolveStep {
@@ -26,6 +33,7 @@ struct Solution {
   double start_energy = 0, energy = 0;  // J, (37): the relaxed energy included
   double kkt = 0;                       // scaled residual, see kkt_residual
   int iterations = 0;
+  int assemblies = 0, factorisations = 0;  // of the Hessian
   bool converged = false;
   std::string reason;  // one phrase
   std::vector<SolveStep> trace;

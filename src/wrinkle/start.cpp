@@ -160,8 +160,7 @@ Waves waves_of(const Problem& problem, std::vector<LocalWaves> local) {
 }
 
 Waves initial_waves(const Problem& problem, double frequency) {
-  std::vector<LocalWaves> local =
-      local_waves(problem.forms(), problem.topology(), problem.live(), problem.pinned(), problem.model());
+  std::vector<LocalWaves> local = problem.own_waves();
   for (LocalWaves& l : local) l.gradient *= frequency;
   const Target target = combed(problem, std::move(local));
   Waves fitted;
@@ -210,7 +209,7 @@ Waves initial_waves(const Problem& problem, double frequency) {
 Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves) {
   const std::size_t count = to.forms().size();
   Target target;
-  target.local = local_waves(to.forms(), to.topology(), to.live(), to.pinned(), to.model());
+  target.local = to.own_waves();
   const double most = waves.amplitude.size() > 0 ? waves.amplitude.maxCoeff() : 0;
   std::vector<bool> known(count, false);
   for (std::size_t f = 0; f < count; ++f) {

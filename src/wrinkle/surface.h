@@ -24,6 +24,7 @@ struct FaceForms {
   shell::RestFace rest;
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();       // I_u⁻¹I_b − id: twice the Green strain
   Eigen::Matrix2d second_form = Eigen::Matrix2d::Zero();  // II_b, 1/m
+  double noise = 0;                                       // compression up to this is none (facets.h)
 };
 
 // The direction in which waves travel: the unit eigenvector ŵ of the strain's smaller eigenvalue λ₂ (eq. 29),

@@ -81,9 +81,9 @@ void follow_rims(const shell::Topology& topology, const std::vector<FaceForms>& 
 
 WaveCount count_waves(const shell::Topology& topology, const std::vector<FaceForms>& forms,
                       const std::vector<bool>& live, const Eigen::VectorXd& amplitude,
-                      const Eigen::VectorXd& one_form) {
+                      const Eigen::VectorXd& one_form, double share) {
   WaveCount best;
-  const double least = amplitude.size() > 0 ? 0.01 * amplitude.maxCoeff() : 0;
+  const double least = amplitude.size() > 0 ? share * amplitude.maxCoeff() : 0;
   if (!(least > 0)) return best;
   std::vector<bool> visible = live;
   for (std::size_t f = 0; f < visible.size(); ++f) {
@@ -99,6 +99,25 @@ WaveCount count_waves(const shell::Topology& topology, const std::vector<FaceFor
     follow_rims(topology, forms, visible, patch, one_form, best);
   }
   return best;
+}
+
+double wavelength_at_highest(const shell::Topology& topology, const std::vector<FaceForms>& forms,
+                             const std::vector<bool>& live, const Eigen::VectorXd& amplitude,
+                             const Eigen::VectorXd& one_form) {
+  Eigen::Index highest = 0;
+  if (amplitude.size() == 0 || !(amplitude.maxCoeff(&highest) > 0)) return 0;
+  double turns = 0, area = 0;
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const shell::Face& t = topology.faces[f];
+    if (!live[f] || std::find(t.begin(), t.end(), highest) == t.end()) continue;
+    const auto side = [&](std::size_t i) {
+      return side_sign(topology, f, i) * one_form[side_edge(topology, f, i)];
+    };
+    const Eigen::Vector2d gradient = forms[f].rest.gradients * Eigen::Vector3d(0, side(0), side(0) + side(1));
+    turns += forms[f].rest.area * gradient.norm() / (2 * std::numbers::pi);
+    area += forms[f].rest.area;
+  }
+  return turns > 0 ? area / turns : 0;
 }
 
 }  // namespace plisse::wrinkle

@@ -8,11 +8,10 @@
 
 namespace plisse::wrinkle {
 
-// The largest number of waves along a loop or a shortest path in one patch of visible faces, those whose
-// corners all have more than a hundredth of the largest amplitude. Loops are the patch's boundaries and the
-// shortest ones through a few of its vertices (two shortest paths that meet); paths are the shortest ones
-// between the vertices with the largest difference of phase. Both count ∮ω/2π, so that crests need not be
-// identified.
+// The most waves that a loop or a shortest way meets in one patch of visible faces, those whose corners all
+// have more than a share of the largest amplitude. Loops are the patch's rims and the shortest ones
+// through a few of its vertices (two shortest ways that meet); ways are the shortest between the vertices
+// where the phase is farthest apart. Both count ∮ω/2π, so that neither crest lines nor phases need names.
 struct WaveCount {
   double waves = 0;    // a whole number around a loop with whole-number periods
   bool round = false;  // a loop; else a path with two ends
@@ -23,6 +22,12 @@ struct WaveCount {
 // (radians).
 WaveCount count_waves(const shell::Topology& topology, const std::vector<FaceForms>& forms,
                       const std::vector<bool>& live, const Eigen::VectorXd& amplitude,
-                      const Eigen::VectorXd& one_form);
+                      const Eigen::VectorXd& one_form, double share = 0.01);
+
+// The length of the waves at the highest crest, metres at rest: of the mean frequency of the live faces round
+// the vertex of the largest amplitude; 0 where nothing wrinkles.
+double wavelength_at_highest(const shell::Topology& topology, const std::vector<FaceForms>& forms,
+                             const std::vector<bool>& live, const Eigen::VectorXd& amplitude,
+                             const Eigen::VectorXd& one_form);
 
 }  // namespace plisse::wrinkle

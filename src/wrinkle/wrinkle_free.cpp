@@ -47,7 +47,7 @@ std::vector<bool> by_authors(const std::vector<double>& compression, const shell
 std::vector<bool> wrinkle_free_faces(const std::vector<FaceForms>& forms, const shell::Topology& topology,
                                      WrinkleFreeRule rule) {
   std::vector<double> compression;
-  for (const FaceForms& f : forms) compression.push_back(principal_strain(f).compression);
+  for (const FaceForms& f : forms) compression.push_back(principal_strain(f).compression + f.noise);
   return rule == WrinkleFreeRule::paper ? by_paper(compression, topology) : by_authors(compression, topology);
 }
 

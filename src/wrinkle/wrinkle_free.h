@@ -12,7 +12,7 @@ enum class WrinkleFreeRule {
   authors  // their program's: λ₂ ≥ 0, then also faces whose three vertices belong to such faces
 };
 
-// One flag a face.
+// One flag a face. Compression that is no more than noise (FaceForms::noise) is none.
 std::vector<bool> wrinkle_free_faces(const std::vector<FaceForms>& forms, const shell::Topology& topology,
                                      WrinkleFreeRule rule);
 

@@ -42,7 +42,7 @@ TEST(PublicWrinkle, TheFieldIsThatOfTheFile) {
   const WrinkleResult found = solve_wrinkles(request);
   EXPECT_EQ(found.energy, report.field.real.energy);
   EXPECT_EQ(found.waves, report.field.waves);
-  EXPECT_EQ(found.iterations, report.field.real.iterations);
+  EXPECT_EQ(found.iterations, report.field.iterations);
   EXPECT_TRUE(found.converged);
   EXPECT_EQ(found.levels, 2);
 

@@ -38,7 +38,7 @@ TEST(WrinkleField, PeriodsBecomeWholeNumbers) {
                whole = std::abs(field.whole.waves.period[0]) / turn;
   EXPECT_GT(std::abs(real - std::round(real)), 1e-3);  // else this shows nothing
   EXPECT_NEAR(whole, std::round(whole), 1e-12);
-  EXPECT_EQ(field.waves, std::round(real));
+  EXPECT_NEAR(field.waves, std::round(real), 1e-9);  // a sum of some hundred phases
   EXPECT_GE(field.whole.energy, field.real.energy * (1 - 1e-9));
   // dφ is off by what the rounding changed, amplitudes hardly.
   EXPECT_NEAR(field.phase_residual, std::abs(whole - real) / real, 0.3 * std::abs(whole - real) / real);

@@ -55,7 +55,7 @@ TEST(Sequence, AStillSurfaceKeepsItsField) {
   EXPECT_FALSE(first.waves_before);  // the first frame begins as it is
   EXPECT_EQ(first.share, 1);
   const Field alone = tube.solve(material);
-  EXPECT_EQ(first.waves, alone.waves);
+  EXPECT_NEAR(first.waves, alone.waves, 1e-9);  // rounded in the sequence alone
   EXPECT_NEAR(first.energy / alone.whole.energy, 1, 1e-9);
   for (int n = 0; n < 3; ++n) {
     const SequenceFrame next = sequence.next(tube.forms, no_face(tube));

@@ -104,6 +104,25 @@ TEST(WaveCount, OnlyWhatCanBeSeen) {
   EXPECT_EQ(sheet.count(plane).waves, 0);
 }
 
+// Above a tenth of the highest: waves that fade out toward a side are counted where they are worth it.
+TEST(WaveCount, WhatIsAboveAShare) {
+  Sheet sheet;
+  for (Eigen::Index v = 0; v < sheet.amplitude.size(); ++v)
+    sheet.amplitude[v] = 1e-3 * (sheet.grid.rest(0, v) > 0.6 + 1e-9 ? 0.05 : 1);
+  VectorXd form(static_cast<Eigen::Index>(sheet.topology.edges.size()));
+  for (std::size_t e = 0; e < sheet.topology.edges.size(); ++e) {
+    const auto& v = sheet.topology.edges[e].vertex;
+    form[static_cast<Eigen::Index>(e)] = plane(sheet.grid.rest.col(v[0]), sheet.grid.rest.col(v[1]));
+  }
+  const auto above = [&](double share) {
+    return count_waves(sheet.topology, sheet.forms, sheet.live, sheet.amplitude, form, share).waves;
+  };
+  EXPECT_NEAR(above(0.01), 7.5, 1e-9);
+  EXPECT_NEAR(above(0.1), 7.5 / 2, 1e-9);
+  EXPECT_NEAR(wavelength_at_highest(sheet.topology, sheet.forms, sheet.live, sheet.amplitude, form),
+              1.2 / 7.5, 1e-12);
+}
+
 // A torus, closed both ways: n waves round the long way, m round the short one.
 TEST(WaveCount, ClosedSurfaces) {
   constexpr int around = 24, across = 12;
