@@ -23,13 +23,14 @@ def make(kit):
         vertices = ('--vertices', 1300) if name == 'skirt' else ()
         kit.plisse('drape', '--example', name, *vertices, '-o', f'{name}.ply')
         report = kit.plisse('wrinkle', f'{name}.ply', '-o', f'{name}_field.ply', '--mesh', f'{name}_waves.ply')
-        rows.append([' '.join(str(word) for word in (name, *vertices)), paper, f'{report["waves"]:.3g}, {1e3 * report["max_amplitude_m"]:.3g} mm', f'{report["vertices"]:,}',
+        rows.append([' '.join(str(word) for word in (name, *vertices)), paper, f'{report["waves"]:.3g}, {1e3 * report["max_amplitude_m"]:.3g} mm',
+                     f'{report["waves_above_tenth"]:.3g}', f'{1e3 * report["wavelength_m"]:.3g}', f'{report["vertices"]:,}',
                      f'{report["energy_whole_periods_J"]:.4g}', f'{report["solve_s"]:.2g}', f'{kit.spent[1]:.2g}', looks])
         kit.write(f'{name}.toml', f'[model]\npath = "{name}_waves.ply"\n[wrinkles]\nstrength = 0\n' + cloth_look(camera, ground=False))
         kit.plisse('render', f'{name}.toml', '-o', f'{name}.png', '--size', '800x640')
         pictures.append(f'{name}.png')
     kit.keep_sheet([pictures[:4], pictures[4:]], 'fields.png')
-    kit.table('fields', ['scene', 'paper', 'here', 'vertices', 'J', 'solver s', 'CPU s', 'looks'], rows, 'wrinkle.md', kit.provenance())
+    kit.table('fields', ['scene', 'paper', 'here', 'above a tenth', 'λ at the highest crest, mm', 'vertices', 'J', 'solver s', 'CPU s', 'looks'], rows, 'wrinkle.md', kit.provenance())
 
     rows = []
     for wanted in (180, 344, 688, 1309, 2543):
