@@ -27,27 +27,33 @@ double h4(double sum1, double sum2, double sum3, double sum4) {
          24;
 }
 
-// Means of a² and a⁴ over a triangle, with derivatives by the corner values.
+// Means of a² and a⁴ over a triangle, with derivatives by the corner values where they are asked for.
 struct Means {
-  double second = 0, fourth = 0;
-  Vector3d second_gradient, fourth_gradient;
-  Matrix3d fourth_hessian;
+  Vector3d a;
+  double s1, s2, s3;  // sums of powers
+  double second, fourth;
 
-  explicit Means(const Vector3d& a) {
-    const double s1 = a.sum(), s2 = a.squaredNorm(), s3 = a.array().cube().sum(),
-                 s4 = a.array().square().square().sum();
+  explicit Means(const Vector3d& corners)
+      : a(corners), s1(a.sum()), s2(a.squaredNorm()), s3(a.array().cube().sum()) {
+    const double s4 = a.array().square().square().sum();
     second = h2(s1, s2) / 6;
     fourth = h4(s1, s2, s3, s4) / 15;
-    for (int i = 0; i < 3; ++i) {
-      const double x = a[i];
-      second_gradient[i] = (s1 + x) / 6;
-      fourth_gradient[i] = h3(s1 + x, s2 + x * x, s3 + x * x * x) / 15;
-      for (int j = 0; j < 3; ++j)
-        fourth_hessian(i, j) = (i == j ? 2 : 1) * h2(s1 + x + a[j], s2 + x * x + a[j] * a[j]) / 15;
-    }
   }
-  // Of ∫a²/area.
+  Vector3d second_gradient() const { return (a.array() + s1) / 6; }
   static Matrix3d second_hessian() { return (Matrix3d::Constant(1) + Matrix3d::Identity()) / 6; }
+  Vector3d fourth_gradient() const {
+    Vector3d gradient;
+    for (int i = 0; i < 3; ++i) gradient[i] = h3(s1 + a[i], s2 + a[i] * a[i], s3 + a[i] * a[i] * a[i]) / 15;
+    return gradient;
+  }
+  Matrix3d fourth_hessian() const {
+    Matrix3d hessian;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        hessian(i, j) = hessian(j, i) =
+            (i == j ? 2 : 1) * h2(s1 + a[i] + a[j], s2 + a[i] * a[i] + a[j] * a[j]) / 15;
+    return hessian;
+  }
 };
 
 double squared_norm(const Matrix2d& m, double alpha, double beta) {
@@ -124,8 +130,8 @@ double FaceEnergy::gradient(const LocalVector& x, LocalVector& first) const {
       2 * (stress_ * t.p) + (2 * aligned_ * t.gg + 4 * bending_ * t.pp) * t.p + 2 * crossed_ * t.gp * t.g;
   const Vector2d by_g = 2 * (stress_ * t.g) + 4 * quartic_a_ * t.gg * t.g +
                         m2 * (2 * aligned_ * t.pp * t.g + 2 * crossed_ * t.gp * t.p);
-  first.head<3>() = gradient_.transpose() * by_g + t.density * t.means.second_gradient +
-                    quartic_ * t.pp * t.pp * t.means.fourth_gradient;
+  first.head<3>() = gradient_.transpose() * by_g + t.density * t.means.second_gradient() +
+                    quartic_ * t.pp * t.pp * t.means.fourth_gradient();
   first.tail<2>() = m2 * density_p + 4 * quartic_ * m4 * t.pp * t.p;
   first *= scale_;
   return t.value;
@@ -134,6 +140,7 @@ double FaceEnergy::gradient(const LocalVector& x, LocalVector& first) const {
 double FaceEnergy::hessian(const LocalVector& x, LocalVector& first, LocalMatrix& second) const {
   const Terms t = terms(x);
   const double m2 = t.means.second, m4 = t.means.fourth;
+  const Vector3d m2_gradient = t.means.second_gradient(), m4_gradient = t.means.fourth_gradient();
   const Matrix2d id = Matrix2d::Identity(), ppt = t.p * t.p.transpose(), ggt = t.g * t.g.transpose(),
                  gpt = t.g * t.p.transpose();
   const Matrix2d fourth = t.pp * id + 2 * ppt;  // ¼ of the Hessian of |p|⁴
@@ -141,8 +148,8 @@ double FaceEnergy::hessian(const LocalVector& x, LocalVector& first, LocalMatrix
       2 * (stress_ * t.p) + (2 * aligned_ * t.gg + 4 * bending_ * t.pp) * t.p + 2 * crossed_ * t.gp * t.g;
   const Vector2d density_g = 2 * aligned_ * t.pp * t.g + 2 * crossed_ * t.gp * t.p;
   const Vector2d by_g = 2 * (stress_ * t.g) + 4 * quartic_a_ * t.gg * t.g + m2 * density_g;
-  first.head<3>() = gradient_.transpose() * by_g + t.density * t.means.second_gradient +
-                    quartic_ * t.pp * t.pp * t.means.fourth_gradient;
+  first.head<3>() =
+      gradient_.transpose() * by_g + t.density * m2_gradient + quartic_ * t.pp * t.pp * m4_gradient;
   first.tail<2>() = m2 * density_p + 4 * quartic_ * m4 * t.pp * t.p;
   first *= scale_;
 
@@ -152,13 +159,12 @@ double FaceEnergy::hessian(const LocalVector& x, LocalVector& first, LocalMatrix
   const Matrix2d by_gg = 2 * stress_ + 4 * quartic_a_ * (t.gg * id + 2 * ggt) +
                          m2 * (2 * aligned_ * t.pp * id + 2 * crossed_ * ppt);
   const Matrix2d by_gp = m2 * (4 * aligned_ * gpt + 2 * crossed_ * (t.gp * id + gpt.transpose()));
-  const Matrix3d mixed = t.means.second_gradient * (density_g.transpose() * gradient_);
+  const Matrix3d mixed = m2_gradient * (density_g.transpose() * gradient_);
   second.topLeftCorner<3, 3>() = gradient_.transpose() * by_gg * gradient_ + mixed + mixed.transpose() +
                                  t.density * Means::second_hessian() +
-                                 quartic_ * t.pp * t.pp * t.means.fourth_hessian;
-  second.topRightCorner<3, 2>() = gradient_.transpose() * by_gp +
-                                  t.means.second_gradient * density_p.transpose() +
-                                  4 * quartic_ * t.pp * t.means.fourth_gradient * t.p.transpose();
+                                 quartic_ * t.pp * t.pp * t.means.fourth_hessian();
+  second.topRightCorner<3, 2>() = gradient_.transpose() * by_gp + m2_gradient * density_p.transpose() +
+                                  4 * quartic_ * t.pp * m4_gradient * t.p.transpose();
   second.bottomLeftCorner<2, 3>() = second.topRightCorner<3, 2>().transpose();
   second.bottomRightCorner<2, 2>() = by_pp;
   second *= scale_;
