@@ -34,8 +34,7 @@ Eigen::Vector3d mixed_areas(const RestFace& rest) {
 
 }  // namespace
 
-Eigen::SparseMatrix<double> bending_quadratic(const Material& material, const Topology& topology,
-                                              const std::vector<RestFace>& rest) {
+CellLaplacian cell_laplacian(const Topology& topology, const std::vector<RestFace>& rest) {
   const auto count = static_cast<Eigen::Index>(topology.vertex_count);
   std::vector<Triplet> entries;  // of L: ∫ Δ over the cell of each vertex
   entries.reserve(12 * topology.faces.size());
@@ -62,10 +61,16 @@ Eigen::SparseMatrix<double> bending_quadratic(const Material& material, const To
                                static_cast<int>(face[static_cast<std::size_t>(k)]), flux[k]);
     }
   }
-  Eigen::SparseMatrix<double> laplacian(count, count);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  Eigen::VectorXd inverse_areas = Eigen::VectorXd::Zero(count);
-  for (Eigen::Index v = 0; v < count; ++v)
+  Eigen::SparseMatrix<double> integral(count, count);
+  integral.setFromTriplets(entries.begin(), entries.end());
+  return {std::move(integral), std::move(areas)};
+}
+
+Eigen::SparseMatrix<double> bending_quadratic(const Material& material, const Topology& topology,
+                                              const std::vector<RestFace>& rest) {
+  const auto [laplacian, areas] = cell_laplacian(topology, rest);
+  Eigen::VectorXd inverse_areas = Eigen::VectorXd::Zero(areas.size());
+  for (Eigen::Index v = 0; v < areas.size(); ++v)
     if (areas[v] > 0) inverse_areas[v] = 1 / areas[v];
   const Eigen::SparseMatrix<double> weighted = inverse_areas.asDiagonal() * laplacian;
   Eigen::SparseMatrix<double> energy = laplacian.transpose() * weighted;

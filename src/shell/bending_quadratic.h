@@ -9,6 +9,14 @@
 
 namespace plisse::shell {
 
+// ∫ Δ_u over the cell of each vertex: `integral` L, V×V, with the flux through free boundaries, and the
+// cells' areas, m²; (Δ_u r)_i = (L r)_i / area_i.
+struct CellLaplacian {
+  Eigen::SparseMatrix<double> integral;
+  Eigen::VectorXd areas;
+};
+CellLaplacian cell_laplacian(const Topology& topology, const std::vector<RestFace>& rest);
+
 // Q, V×V, so that the energy is ½ Σ over x, y, z of xᵀ Q x, J: B/2 ∫ |Δ_u r|² dA, where eq. 28 has α for
 // B = Y h³/12(1−ν²) = (h³/12)(α + 2β); α would be 0 for ν = 0. Δ_u is the cotangent Laplacian over the rest
 // triangles with lumped masses of mixed Voronoi areas (Meyer et al. 2003), with which it is exact for

@@ -1,0 +1,75 @@
+// A wrinkle-free base surface for a shape that something else made: a frame of a cloth simulation or of a
+// rig. It keeps what the mesh can carry, and hands the length that is lost in its zigzags to the waves of a
+// field.
+//
+// For each frame, X its positions, the base has the least
+//   E(x) = E_TF(x) + ½ b Σ m_i |(Δx)_i − R_i (Δx̄)_i|² + ½ c Σ m_i |x_i − X_i|²:
+// tension field theory (Chen et al. 2021, appendix B), against which shortening costs nothing; bending from
+// the rest shape's own curvature vectors Δx̄, turned by the given pose's rotations R_i; a tether to the pose.
+// With b = c(Λ/2π)⁴ a ripple of wavelength λ in X keeps 1/(1 + (Λ/λ)⁴) of its height; with c = Yh/ℓ² tension
+// wins over the tether on what is shorter than ℓ. Free boundaries have the same for themselves as curves, or
+// hems would keep the simulation's sawtooth. E is convex, so that a base depends on its own frame alone; Y
+// and h have no part in it, since they multiply all of E.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+#include "shell/material.h"
+#include "shell/rest_shape.h"
+
+namespace plisse::shell {
+
+struct FollowSettings {
+  double wavelength = 0;  // Λ, m; 0: the base is the pose
+  double reach = 0.36;    // ℓ over Λ
+  double poisson = 0.3;
+  // Curvature that the first solution has is the second's target: a tube of n edges, sewn from flat panels,
+  // keeps 1/(1
+  // + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.
+  int passes = 2;
+  int max_iterations = 200;
+  double tolerance = 1e-6;  // converged where no vertex moves by more than this share of Λ
+};
+
+struct Followed {
+  Positions base;                        // m, 3×V
+  double moved_rms = 0, moved_most = 0;  // m, from the pose, over vertices with faces
+  int iterations = 0;                    // Newton steps of all passes
+  bool converged = false;
+};
+
+class Follower {
+ public:
+  // rest_positions: where the rest shape is in space, 3×V, whose curvature the base keeps; empty: flat
+  // panels. Throws Error(bad_input) where counts do not agree.
+  Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
+           const FollowSettings& settings);
+
+  // Throws Error(bad_input) where the pose has another number of vertices or is not finite. May be called
+  // from several threads.
+  Followed follow(const Positions& pose) const;
+
+ private:
+  // What the rest shape's own curvature, turned with the pose, is for the bending: N a vertex, 3×V.
+  Positions turned_curvature(const Positions& pose) const;
+
+  Topology topology_;
+  std::vector<RestFace> rest_;
+  FollowSettings settings_;
+  Material material_;      // of unit thickness and stiffness, with Poisson's ratio
+  double tether_ = 0;      // c, N/m³
+  Eigen::VectorXd areas_;  // m_i, m²
+  // Curvature operators, a row each: of the cell of a vertex (L), and of the boundary curve at one; the
+  // weights of their squares, N/m; the vertices that they are of; their values for the rest shape.
+  Eigen::SparseMatrix<double> curvature_;
+  Eigen::VectorXd weights_;
+  std::vector<std::uint32_t> row_vertex_;
+  Positions rest_curvature_;  // 3×rows; empty: flat
+  std::vector<Eigen::Matrix3d>
+      frames_;                        // of each rest face in space: its axes u, v and its normal; empty: flat
+  Eigen::SparseMatrix<double> form_;  // their sum of squares, V×V, N/m
+};
+
+}  // namespace plisse::shell
