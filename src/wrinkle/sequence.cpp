@@ -78,9 +78,13 @@ CoarseField cross_faded(const std::vector<shell::Face>& faces, const CoarseField
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = faces[f][c];
-      const auto turned = std::polar(1.0, other.phase[f][c] - main.phase[f][c]);
-      result.phase[f][c] += std::arg(1 - small + small * turned);
-      if (main.amplitude[v] > 0 || other.amplitude[v] > 0)
+      const double turn_to = other.phase[f][c] - main.phase[f][c];
+      const auto turned = std::polar(1.0, turn_to);
+      // Where a field has no amplitude its corners' phases need not agree, and the other one's count alone.
+      const bool here = main.amplitude[v] > 0, there = other.amplitude[v] > 0;
+      if (here && there) result.phase[f][c] += std::arg(1 - small + small * turned);
+      if (there && !here) result.phase[f][c] += std::remainder(turn_to, turn);
+      if (here || there)
         result.amplitude[v] = std::abs((1 - small) * main.amplitude[v] + small * other.amplitude[v] * turned);
     }
   }

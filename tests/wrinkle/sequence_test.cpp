@@ -118,6 +118,33 @@ TEST(Sequence, CrossFadeIsThatOfComplexAmplitudes) {
   }
 }
 
+// Where one field has no amplitude yet, its corners' phases do not agree, and those of the other count: no
+// tear.
+TEST(Sequence, CrossFadesDoNotTearWhereWavesBegin) {
+  const Tube tube(0.02);
+  const auto count = static_cast<Eigen::Index>(tube.topology.vertex_count);
+  const auto calm = [](std::uint32_t v) { return v / 24 < 5; };  // the lower rows
+  CoarseField from{Eigen::VectorXd::Constant(count, 1), {}}, to = from;
+  for (std::uint32_t v = 0; v < tube.topology.vertex_count; ++v)
+    if (calm(v)) from.amplitude[v] = 0;
+  for (std::size_t f = 0; f < tube.topology.faces.size(); ++f) {
+    auto &a = from.phase.emplace_back(), &b = to.phase.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = tube.topology.faces[f][c];
+      a[c] = calm(v) ? static_cast<double>(3 * f + c) : turn * 9 * (v % 24) / 24;
+      b[c] = turn * 11 * (v % 24) / 24;
+    }
+  }
+  for (const double share : {0.2, 0.45, 0.55, 0.9}) {
+    // complex_amplitudes looks whether corners agree.
+    const auto z = complex_amplitudes(tube.topology, cross_faded(tube.topology.faces, from, to, share));
+    EXPECT_NEAR(std::abs(z[30]), share, 1e-12);  // a vertex of the second row
+    // And the other way: waves that end.
+    const auto back = complex_amplitudes(tube.topology, cross_faded(tube.topology.faces, to, from, share));
+    EXPECT_NEAR(std::abs(back[30]), 1 - share, 1e-12);
+  }
+}
+
 // More and more tension makes more and more waves.
 TEST(Sequence, ChangesOfPeriodsAreFewListedAndSmoothSlow) {
   constexpr int frames = 27;
