@@ -19,11 +19,18 @@
 #include "cli/cache_arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/size_options.h"
+#include "cloth/base_file.h"
 #include "cloth/drape_examples.h"
 #include "cloth/drape_setup.h"
+#include "cloth/fabric_material.h"
+#include "cloth/follow_model.h"
 #include "cloth/wrinkle_sequence.h"
+#include "config/drape_file.h"
 #include "config/frames.h"
+#include "config/scene_file.h"
 #include "config/suggest.h"
+#include "io/sequence.h"
 #include "mesh/subdivide.h"
 
 namespace plisse::cli {
@@ -33,12 +40,29 @@ using nlohmann::ordered_json;
 
 struct Arguments {
   explicit Arguments(CommandOptions& options) : common(options), solved(options) {
-    options.add("input", input, "BASE.ply|BASE_####.ply|SCENE.toml|SETUP.json",
-                described("A base surface that 'plisse drape' wrote, a drape scene, or a set-up of the TFW "
-                          "authors; what is not draped yet is draped first"));
-    options.add("--frames", frames, "RANGES",
-                described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache): which; "
-                          "default all. Those before are solved on the way."));
+    options.add(
+        "input", input, "BASE.ply|BASE_####.ply|SCENE.toml|SETUP.json|MODEL",
+        described("A base surface that 'plisse drape' wrote, a drape scene, a set-up of the TFW "
+                  "authors (what is not draped yet is draped first); or any animated model, or a scene "
+                  "with one, whose base surfaces are found first: -o FOLDER"));
+    options.add(
+        "--frames", frames, "RANGES",
+        described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache) or a model: "
+                  "which; default all. Of base surfaces those before are solved on the way."));
+    options.add(
+        "--follow", follow, "LENGTH",
+        described("Of a model: what is shorter than this is handed to the waves; 0: nothing. Default: 8 mean "
+                  "edges of the rest shape for simulations and caches, 4 for skins and morphs"));
+    options.add("--fabric", fabric, "B,E|NAME", "Of a model: its fabric, as for 'plisse size'");
+    options.add(
+        "--wavelength", wavelength, "LENGTH",
+        described("Of a model without --fabric: how long its waves are, in the median; default: three mean "
+                  "edges of the rest shape"));
+    options.add("--rest", rest, "bind|frame:N|FILE", "Of a model: its rest shape, as for 'plisse render'");
+    options.add("--clip", clip, "NAME|INDEX", "Of a model: the animation to play");
+    options.add("--only", only, Values::all_given, "NAME", "Of a model: only these meshes or materials");
+    options.add("--exclude", exclude, Values::all_given, "NAME",
+                "Of a model: all but these meshes or materials");
     options.add("--cache", cache, "FILE", "A point cache that moves BASE.ply: .pc2 or .mdd");
     options.add("--fade", fade, "FRAMES",
                 described("Over a sequence: how many frames show both fields where the number of waves "
@@ -52,7 +76,8 @@ struct Arguments {
     options.add("--seed", seed, "S", "Another seed, another mesh of the same example (default 1)");
     options.add("-o,--output", output, "FILE",
                 described("field.ply (the default; field_####.ply of a sequence), or NAME_amplitude_REST.txt "
-                          "for the authors' three text files"));
+                          "for the authors' three text files; of a model a folder, for base_####.ply, "
+                          "field_####.ply and the scene that draws them"));
     options.add("--mesh", mesh, "FILE",
                 described("The waves as geometry, too: .ply, .obj or .glb, with normals and uv"));
     options.add("--levels", levels, "N",
@@ -105,8 +130,8 @@ struct Arguments {
   CacheArguments solved;
   std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
-                                    iterations = "500", cost;
-  std::vector<std::string> without, evaluate;
+                                    iterations = "500", cost, follow, fabric, wavelength, rest, clip;
+  std::vector<std::string> without, evaluate, only, exclude;
   bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false, local_law = false;
 };
 
@@ -265,14 +290,8 @@ ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
           {"wall_s", report.wall_s},           {"outputs", outputs}};
 }
 
-int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
-  if (!arguments.example.empty() || !arguments.evaluate.empty())
-    throw Error(ExitCode::bad_input, "--example and --evaluate are for one base surface, not for a sequence");
-  cloth::WrinkleSequenceRequest request;
-  request.each = std::move(each);
-  request.bases = arguments.input;
-  request.cache = arguments.cache;
-  request.frames = arguments.frames;
+cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
+                                            cloth::WrinkleSequenceRequest& request) {
   request.fade = whole_number("--fade", arguments.fade, 0, 1000);
   request.hysteresis = number_in("--hysteresis", arguments.hysteresis, 1, 1e6);
   install_interrupt_handlers();
@@ -294,9 +313,158 @@ int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
   log::notice(fmt::format("{} frames in {:.2f} s; {} vertices, at last {:.4g} waves, at most {:.4g} mm high",
                           report.frames.size(), report.wall_s, report.vertices, last.solved.waves,
                           1e3 * last.max_amplitude));
+  return report;
+}
+
+int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
+  if (!arguments.example.empty() || !arguments.evaluate.empty())
+    throw Error(ExitCode::bad_input, "--example and --evaluate are for one base surface, not for a sequence");
+  cloth::WrinkleSequenceRequest request;
+  request.each = std::move(each);
+  request.bases = arguments.input;
+  request.cache = arguments.cache;
+  request.frames = arguments.frames;
+  const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
   write_report(to_json(report), arguments.common.json());
   if (report.interrupted) return 128 + signal_number();
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
+double length_option(const std::string& option, const std::string& text) {
+  const auto value = parse_length(text);
+  if (!value || !(*value >= 0 && *value <= 1e6))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: '{}' is no length of 0 m or more, such as '24 cm'", option, text));
+  return *value;
+}
+
+cloth::FollowRequest follow_request_of(const Arguments& arguments) {
+  cloth::FollowRequest request;
+  request.scene = config::open_scene(arguments.input);
+  config::SceneSettings& scene = request.scene;
+  if (!arguments.rest.empty()) scene.model.rest = arguments.rest;
+  if (!arguments.clip.empty()) scene.model.clip = arguments.clip;
+  if (!arguments.cache.empty()) scene.model.cache = arguments.cache;
+  if (!arguments.only.empty()) scene.wrinkles.only = arguments.only;
+  if (!arguments.exclude.empty()) scene.wrinkles.exclude = arguments.exclude;
+  request.frames = arguments.frames;
+  if (!arguments.follow.empty()) request.follow = length_option("--follow", arguments.follow);
+  if (!arguments.wavelength.empty()) request.wavelength = length_option("--wavelength", arguments.wavelength);
+  if (!arguments.fabric.empty()) {
+    if (request.wavelength)
+      throw Error(ExitCode::bad_input,
+                  "--fabric and --wavelength: a fabric has waves of its own length; give one");
+    request.material = cloth::material_of(fabric_option(arguments.fabric), {}, {}).material;
+  }
+  return request;
+}
+
+// An animated model: base surfaces that follow it, then fields on them.
+int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
+  refuse_without_effect({{"--vertices", !arguments.vertices.empty()},
+                         {"--seed", !arguments.seed.empty()},
+                         {"--evaluate", !arguments.evaluate.empty()},
+                         {"--free-held", arguments.free_held},
+                         {"--cache-dir", arguments.solved.given()}},
+                        "for a model, of which nothing is draped or held");
+  const std::filesystem::path folder = arguments.output;
+  if (folder.empty() || folder.has_extension())
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("-o {}: of a model base surfaces and fields are written into a folder: give its name",
+                    folder.empty() ? "is missing" : "'" + folder.string() + "'"));
+  cloth::FollowRequest follow = follow_request_of(arguments);
+  install_interrupt_handlers();
+  cloth::FollowReport followed;
+  {
+    Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
+    follow.progress = [&](int done, int of) { progress.update(done, of, "followed"); };
+    followed = cloth::follow_model(follow);
+  }
+  if (followed.interrupted) return 128 + signal_number();
+  const cloth::WrinkleScene& first = followed.first;
+  log::notice(fmt::format(
+      "{} vertices in {} shell{}: {} shorter than {:.3g} m is handed to waves; cloth of {:.3g} mm",
+      first.surface.topology.vertex_count, followed.shells, followed.shells == 1 ? "" : "s",
+      followed.follow > 0 ? "what is" : "nothing", followed.follow, 1e3 * first.material.thickness));
+  std::filesystem::create_directories(folder);
+  cloth::WrinkleSequenceRequest request;
+  request.each = std::move(each);
+  request.each.scene = first;
+  request.each.output = folder / "field_####.ply";
+  request.poses = followed.bases;
+  request.first = followed.frames.front().frame;
+  request.frames = arguments.frames.empty() ? follow.scene.model.frames : arguments.frames;
+  ordered_json outputs = ordered_json::array();
+  bool converged = true;
+  for (std::size_t n = 0; n < followed.frames.size(); ++n) {
+    const cloth::FollowedFrame& frame = followed.frames[n];
+    converged = converged && frame.converged;
+    if (!frame.converged) log::warn(fmt::format("frame {}: its base surface did not converge", frame.frame));
+    if (std::find(followed.picked.begin(), followed.picked.end(), frame.frame) == followed.picked.end())
+      continue;
+    const auto path =
+        std::filesystem::path(config::numbered_path((folder / "base_####.ply").string(), frame.frame));
+    cloth::write_base(path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
+                      first.surface.topology.faces, first.surface.rest, first.material, first.held,
+                      followed.bases[n], frame.converged ? "" : "not in the steps allowed");
+    outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
+  }
+  const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
+  std::size_t others = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = std::any_of(outputs.begin(), outputs.end(), [&](const ordered_json& output) {
+      return std::filesystem::path(output["path"].get<std::string>()).filename() == name;
+    });
+    if (name.starts_with("base_") && name.ends_with(".ply") && !ours) ++others;
+  }
+  if (others > 0)
+    log::warn(fmt::format(
+        "{}: {} base surfaces of other frames or runs lie there already, and its scene draws them "
+        "as well",
+        folder.string(), others));
+  const std::filesystem::path scene = folder / "scene.toml";
+  write_whole_file(scene, "# plisse render " + scene.string() +
+                              " -o frames\n[model]\npath = \"base_####.ply\"\n[bias]\nfield = "
+                              "\"field_####.ply\"\nuse = \"direct\"\n");
+  log::notice(fmt::format("→ {}", scene.string()));
+  ordered_json json = to_json(report);
+  for (const ordered_json& output : json["outputs"]) outputs.push_back(output);
+  outputs.push_back({{"path", scene.string()}, {"kind", "scene"}});
+  json["outputs"] = outputs;
+  json["converged"] = converged && report.converged;
+  json["shells"] = followed.shells;
+  json["follow_m"] = followed.follow;
+  json["thickness_m"] = first.material.thickness;
+  for (ordered_json& entry : json["frames"]) {
+    const cloth::FollowedFrame& frame =
+        followed.frames[static_cast<std::size_t>(entry["frame"].get<int>() - followed.frames.front().frame)];
+    entry["moved_rms_m"] = frame.moved_rms;
+    entry["moved_most_m"] = frame.moved_most;
+    entry["length_kept"] = frame.length_kept;
+    entry["follow_iterations"] = frame.iterations;
+    entry["follow_converged"] = frame.converged;
+    entry["follow_s"] = frame.seconds;
+  }
+  write_report(json, arguments.common.json());
+  if (report.interrupted) return 128 + signal_number();
+  return static_cast<int>(converged && report.converged ? ExitCode::fine : ExitCode::check_failed);
+}
+
+// Whether the input is an animated model, or a scene with one, and no base surface or drape scene.
+bool is_model(const Arguments& arguments) {
+  if (arguments.input.empty()) return false;
+  const std::filesystem::path input = arguments.input;
+  std::string ending = input.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".json") return false;
+  if (ending == ".toml") return !config::is_drape_file(input);
+  if (ending == ".ply")
+    return !cloth::is_base(config::is_frame_pattern(input.string()) ? io::sequence_files(input).front()
+                                                                    : input);
+  return true;
 }
 
 int run_costs(Arguments arguments, const cloth::WrinkleRequest& request) {
@@ -354,6 +522,15 @@ int run_wrinkle(Arguments& arguments) {
   arguments.common.apply();
   cloth::WrinkleRequest request = request_of(arguments);
   if (!arguments.cost.empty()) return run_costs(arguments, request);
+  if (is_model(arguments)) return run_model(arguments, std::move(request));
+  refuse_without_effect({{"--follow", !arguments.follow.empty()},
+                         {"--fabric", !arguments.fabric.empty()},
+                         {"--wavelength", !arguments.wavelength.empty()},
+                         {"--rest", !arguments.rest.empty()},
+                         {"--clip", !arguments.clip.empty()},
+                         {"--only", !arguments.only.empty()},
+                         {"--exclude", !arguments.exclude.empty()}},
+                        "on a base surface or a drape scene: they are for models");
   if (is_sequence(arguments)) return run_sequence(arguments, std::move(request));
   if (!arguments.frames.empty())
     throw Error(ExitCode::bad_input, "--frames is for sequences: base_####.ply, or base.ply with --cache");

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "cloth/base_file.h"
 #include "cloth/cached_solves.h"
 #include "config/frames.h"
 #include "io/ply.h"
@@ -127,31 +128,12 @@ shell::Shell shell_of(const DrapeScene& scene) {
 
 void write_base(const std::filesystem::path& path, const DrapeScene& scene, const DrapeFrame& frame,
                 const Positions& positions) {
-  using io::PlyProperty;
-  io::Ply ply;
-  ply.comments = {fmt::format("plisse drape {} load {}", scene.name, frame.load),
-                  fmt::format("young {}", scene.material.young),
-                  fmt::format("poisson {}", scene.material.poisson),
-                  fmt::format("thickness {}", scene.material.thickness),
-                  fmt::format("density {}", scene.material.density)};
-  if (!frame.equilibrium.converged) ply.comments.push_back("not converged: " + frame.equilibrium.reason);
-  io::PlyElement vertices{"vertex", static_cast<std::size_t>(positions.cols())},
-      faces{"face", scene.faces.size()};
-  vertices.add_vectors("", PlyProperty::Type::float64, points_to_glm(positions));
-  PlyProperty& held = vertices.properties.emplace_back(PlyProperty{"held", PlyProperty::Type::uint8});
   const shell::Conditions conditions = scene.conditions(frame.load);
-  for (Eigen::Index v = 0; v < positions.cols(); ++v)
-    held.values.push_back(conditions.held.col(v).all() ? 1 : 0);
-  std::vector<double> corners, flat;
-  for (const shell::Face& face : scene.faces) corners.insert(corners.end(), face.begin(), face.end());
-  for (const shell::RestFace& rest : shell::rest_faces(scene.rest, scene.rest_faces)) {
-    const Eigen::Matrix2d& edges = rest.edges;
-    flat.insert(flat.end(), {0, 0, edges(0, 0), edges(1, 0), edges(0, 1), edges(1, 1)});
-  }
-  faces.add_lists("vertex_indices", PlyProperty::Type::int32, 3, std::move(corners));
-  faces.add_lists("rest", PlyProperty::Type::float64, 6, std::move(flat));
-  ply.elements = {std::move(vertices), std::move(faces)};
-  io::write_ply(path, ply);
+  std::vector<bool> held;
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) held.push_back(conditions.held.col(v).all());
+  write_base(path, fmt::format("plisse drape {} load {}", scene.name, frame.load), scene.faces,
+             shell::rest_faces(scene.rest, scene.rest_faces), scene.material, held, positions,
+             frame.equilibrium.converged ? "" : frame.equilibrium.reason);
 }
 
 Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,

@@ -28,8 +28,10 @@ constexpr int sequence_levels = 3;
 // Base surfaces one after the other.
 class Bases {
  public:
-  explicit Bases(const WrinkleSequenceRequest& request) {
-    if (config::is_frame_pattern(request.bases.string())) {
+  explicit Bases(const WrinkleSequenceRequest& request) : poses_(request.poses), from_(request.first) {
+    if (!poses_.empty()) {
+      first_ = request.each.scene;
+    } else if (config::is_frame_pattern(request.bases.string())) {
       if (!request.cache.empty())
         throw Error(ExitCode::bad_input, "--cache moves one base.ply, not a sequence of them");
       files_ = io::sequence_files(request.bases);
@@ -42,12 +44,23 @@ class Bases {
     }
   }
 
-  int count() const { return static_cast<int>(files_.empty() ? cache_.size() : files_.size()); }
+  int from() const { return from_; }  // number of the first
+  int last() const {
+    const std::size_t count = !poses_.empty()  ? poses_.size()
+                              : files_.empty() ? cache_.size()
+                                               : files_.size();
+    return from_ + static_cast<int>(count) - 1;
+  }
   const WrinkleScene& first() const { return first_; }
   const std::vector<fs::path>& files() const { return files_; }
 
   WrinkleScene read(int frame) const {
-    const auto index = static_cast<std::size_t>(frame - 1);
+    const auto index = static_cast<std::size_t>(frame - from_);
+    if (!poses_.empty()) {
+      WrinkleScene scene = first_;
+      scene.surface.positions = poses_[index];
+      return scene;
+    }
     if (!files_.empty()) {
       WrinkleScene scene = read_base(files_[index]);
       if (scene.surface.topology.faces != first_.surface.topology.faces ||
@@ -65,6 +78,8 @@ class Bases {
   }
 
  private:
+  const std::vector<shell::Positions>& poses_;
+  int from_;
   std::vector<fs::path> files_;
   io::VertexCache cache_;
   WrinkleScene first_;
@@ -86,7 +101,7 @@ fs::path numbered(const fs::path& pattern, int frame) {
 WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   const double began = wall_seconds();
   const Bases bases(request);
-  const std::vector<int> picked = config::select_frames(request.frames, bases.count());
+  const std::vector<int> picked = config::select_frames(request.frames, bases.last());
   WrinkleRequest each = request.each;
   for (const fs::path& pattern : {each.output, each.mesh}) check_pattern(pattern, picked.size());
   each.output = numbered(request.each.output, picked.front());
@@ -106,7 +121,7 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   std::set<std::string> told;  // kinds of faults
   report.vertices = topology.vertex_count;
   report.faces = topology.faces.size();
-  for (int n = 1; n <= picked.back() && !report.interrupted; ++n) {
+  for (int n = bases.from(); n <= picked.back() && !report.interrupted; ++n) {
     each.scene = bases.read(n);
     const wrinkle::BaseSurface& surface = each.scene.surface;
     const auto forms = forms_of(each);

@@ -15,8 +15,11 @@ struct WrinkleSequenceRequest {
   WrinkleRequest each;
   std::filesystem::path bases;  // base_####.ply, or one base.ply, that `cache` moves
   std::filesystem::path cache;  // .pc2 or .mdd; empty: none
-  std::string frames;           // a selection; empty: all. All frames up to the last are solved.
-  int fade = 6;                 // see wrinkle::SequenceOptions
+  // Or in memory: the places of each.scene's vertices from frame `first` on, in place of both.
+  std::vector<shell::Positions> poses;
+  int first = 1;
+  std::string frames;  // a selection; empty: all. All frames up to the last are solved.
+  int fade = 6;        // see wrinkle::SequenceOptions
   double hysteresis = 9;
   // After every frame: which, of how many.
   std::function<void(int frame, int frames)> progress;

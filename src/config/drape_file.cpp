@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 
 #include "base/atomic_file.h"
@@ -341,6 +342,19 @@ std::string drape_reference_markdown() {
                        return (repeated ? "[[" : "[") + key.table + (repeated ? "]]" : "]");
                      }};
   return key_table(all_keys(), {table, name_column(), allowed_column(), doc_column()});
+}
+
+bool is_drape_file(const std::filesystem::path& file) {
+  std::ifstream text(file);
+  if (!text) return true;
+  bool model = false;
+  for (std::string line; std::getline(text, line);) {
+    const auto begin = line.find_first_not_of(" \t");
+    if (begin == std::string::npos) continue;
+    if (line.compare(begin, 7, "[drape]") == 0) return true;
+    model = model || line.compare(begin, 7, "[model]") == 0;
+  }
+  return !model;
 }
 
 }  // namespace plisse::config

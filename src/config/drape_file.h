@@ -84,4 +84,8 @@ DrapeSettings load_drape_settings(const std::filesystem::path& file);
 // The table of keys in docs/drape.md.
 std::string drape_reference_markdown();
 
+// Whether a .toml is a drape scene and not one of a picture: it has a table [drape]. What cannot be read
+// counts as one, for its reader to say why.
+bool is_drape_file(const std::filesystem::path& file);
+
 }  // namespace plisse::config

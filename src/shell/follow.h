@@ -30,7 +30,7 @@ struct FollowSettings {
   // + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.
   int passes = 2;
   int max_iterations = 200;
-  double tolerance = 1e-6;  // converged where no vertex moves by more than this share of Λ
+  double tolerance = 1e-8;  // converged where no vertex moves by more than this share of Λ
 };
 
 struct Followed {

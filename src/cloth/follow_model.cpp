@@ -1,0 +1,299 @@
+#include "cloth/follow_model.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <set>
+
+#include "base/clock.h"
+#include "base/eigen_glm.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "config/frames.h"
+#include "scene/animation.h"
+#include "scene/load_model.h"
+#include "scene/wrinkles.h"
+#include "wrinkle/facets.h"
+#include "wrinkle/local_waves.h"
+
+namespace plisse::cloth {
+namespace {
+
+using shell::Face;
+using shell::Positions;
+
+// The selected parts' faces as shells: vertices of their own, from those of the model.
+struct Cloth {
+  std::vector<std::uint32_t> from;  // of each vertex: the welded vertex of the model
+  std::vector<Face> faces;
+
+  Positions places(const std::vector<glm::dvec3>& welded) const {
+    Positions result(3, static_cast<Eigen::Index>(from.size()));
+    for (std::size_t v = 0; v < from.size(); ++v)
+      result.col(static_cast<Eigen::Index>(v)) = to_eigen(welded[from[v]]);
+    return result;
+  }
+};
+
+bool has_area(const std::vector<glm::dvec3>& rest, const Face& face) {
+  const glm::dvec3 a = rest[face[1]] - rest[face[0]], b = rest[face[2]] - rest[face[0]], c = b - a;
+  const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+  return glm::length(glm::cross(a, b)) > 1e-10 * longest;
+}
+
+Cloth selected(const Surface& surface) {
+  Cloth cloth;
+  std::vector<Face> loose;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> sides;  // a side with its direction belongs to one face
+  std::size_t flat = 0;
+  for (const Part& part : surface.parts) {
+    if (!part.wrinkles) continue;
+    for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      Face face;
+      for (std::size_t c = 0; c < 3; ++c)
+        face[c] = surface.render_vertices[surface.triangles[3 * t + c]].welded;
+      if (!has_area(surface.rest, face)) {
+        ++flat;
+        continue;
+      }
+      const auto side = [&](std::size_t c) { return std::pair(face[c], face[(c + 1) % 3]); };
+      if (sides.contains(side(0)) || sides.contains(side(1)) || sides.contains(side(2))) {
+        loose.push_back(face);
+        continue;
+      }
+      for (std::size_t c = 0; c < 3; ++c) sides.insert(side(c));
+      cloth.faces.push_back(face);
+    }
+  }
+  if (cloth.faces.empty())
+    throw Error(ExitCode::bad_input, "no triangle is selected that has an area: nothing can wrinkle");
+  if (flat > 0) log::warn(fmt::format("{} triangles without area are left out", flat));
+  if (!loose.empty())
+    log::warn(
+        fmt::format("{} faces at edges where more than two faces meet, or that are turned over beside their "
+                    "neighbours, are cut loose",
+                    loose.size()));
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (Face& face : cloth.faces)
+    for (auto& v : face) {
+      const auto [entry, fresh] = number.try_emplace(v, static_cast<std::uint32_t>(cloth.from.size()));
+      if (fresh) cloth.from.push_back(v);
+      v = entry->second;
+    }
+  for (Face face : loose) {
+    for (auto& v : face) {
+      cloth.from.push_back(v);
+      v = static_cast<std::uint32_t>(cloth.from.size() - 1);
+    }
+    cloth.faces.push_back(face);
+  }
+  return cloth;
+}
+
+// One connected shell with its own Λ.
+struct Piece {
+  std::vector<std::uint32_t> vertices;
+  double edge = 0;  // mean rest edge, m
+  std::optional<shell::Follower> follower;
+};
+
+std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<shell::RestFace>& rest,
+                             const Positions& rest_positions, const FollowRequest& request, double edges,
+                             double& largest) {
+  std::vector<Piece> pieces(topology.component_count);
+  std::vector<std::uint32_t> local(topology.vertex_count, 0);
+  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
+    Piece& piece = pieces[topology.component[v]];
+    local[v] = static_cast<std::uint32_t>(piece.vertices.size());
+    piece.vertices.push_back(v);
+  }
+  std::vector<std::vector<Face>> faces(pieces.size());
+  std::vector<std::vector<shell::RestFace>> rests(pieces.size());
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    Face face = topology.faces[f];
+    const std::uint32_t piece = topology.component[face[0]];
+    for (auto& v : face) v = local[v];
+    faces[piece].push_back(face);
+    rests[piece].push_back(rest[f]);
+  }
+  std::vector<std::size_t> count(pieces.size(), 0);
+  for (const shell::Edge& edge : topology.edges) {
+    const std::uint32_t piece = topology.component[edge.vertex[0]];
+    pieces[piece].edge += (rest_positions.col(edge.vertex[0]) - rest_positions.col(edge.vertex[1])).norm();
+    ++count[piece];
+  }
+  std::size_t most = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    Piece& piece = pieces[p];
+    piece.edge /= static_cast<double>(std::max<std::size_t>(count[p], 1));
+    Positions places(3, static_cast<Eigen::Index>(piece.vertices.size()));
+    for (std::size_t v = 0; v < piece.vertices.size(); ++v)
+      places.col(static_cast<Eigen::Index>(v)) = rest_positions.col(piece.vertices[v]);
+    shell::FollowSettings settings;
+    settings.wavelength = request.follow.value_or(edges * piece.edge);
+    if (request.material) settings.poisson = request.material->poisson;
+    if (faces[p].size() > most) {
+      most = faces[p].size();
+      largest = settings.wavelength;
+    }
+    const std::size_t vertex_count = piece.vertices.size();
+    piece.follower.emplace(shell::build_topology(std::move(faces[p]), vertex_count), std::move(rests[p]),
+                           places, settings);
+  }
+  return pieces;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+// The thickness at which the waves of the squeezed area have the wavelength, in the median by area times
+// compression: |ω| goes with h^−½ (local_waves.h). Young's modulus multiplies all energies alike.
+shell::Material material_for(double wavelength, const wrinkle::BaseSurface& surface,
+                             const std::vector<Positions>& bases) {
+  shell::Material material;
+  material.young = 1e5;
+  material.poisson = 0.3;
+  material.thickness = 1e-2 * wavelength;
+  constexpr std::size_t samples = 8;  // frames, evenly picked
+  constexpr int rounds = 3;           // for what does not go with h: waves as long as their patch
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::pair<double, double>> rates;  // |ω|, weight
+    double sum = 0;
+    for (std::size_t n = 0; n < std::min(samples, bases.size()); ++n) {
+      wrinkle::BaseSurface frame = surface;
+      frame.positions = bases[bases.size() <= samples ? n : n * (bases.size() - 1) / (samples - 1)];
+      auto forms = wrinkle::face_forms(frame);
+      wrinkle::find_noise(forms, frame, material, false);
+      const auto free = wrinkle::wrinkle_free_faces(forms, frame.topology, wrinkle::WrinkleFreeRule::paper);
+      std::vector<bool> live;
+      for (const bool f : free) live.push_back(!f);
+      const auto waves = wrinkle::local_waves(forms, frame.topology, live,
+                                              std::vector<bool>(frame.topology.vertex_count, false),
+                                              wrinkle::Model{material});
+      for (std::size_t f = 0; f < waves.size(); ++f) {
+        const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
+        if (!(weight > 0)) continue;
+        rates.emplace_back(waves[f].gradient.norm(), weight);
+        sum += weight;
+      }
+    }
+    std::sort(rates.begin(), rates.end());
+    double below = 0, rate = 0;
+    for (const auto& [value, weight] : rates) {
+      below += weight;
+      rate = value;
+      if (below >= sum / 2) break;
+    }
+    if (!(rate > 0)) break;  // nothing is squeezed
+    const double now = 2 * std::numbers::pi / rate;
+    material.thickness *= std::clamp((wavelength / now) * (wavelength / now), 0.01, 100.0);
+  }
+  return material;
+}
+
+}  // namespace
+
+FollowReport follow_model(const FollowRequest& request) {
+  const io::Model model = scene::load_model(request.scene);
+  const config::ModelSettings& chosen = request.scene.model;
+  scene::Animation animation(
+      model, {chosen.clip, chosen.frames_per_second, chosen.rest, chosen.loop, request.scene.limits});
+  scene::select_parts(animation.surface(), request.scene.wrinkles);
+  const Surface& surface = animation.surface();
+
+  FollowReport report;
+  report.picked = config::select_frames(request.frames.empty() ? chosen.frames : request.frames,
+                                        animation.timeline().frame_count);
+  const Cloth cloth = selected(surface);
+  WrinkleScene& first = report.first;
+  first.name = chosen.path.stem().string();
+  first.chords = false;
+  first.surface.topology = shell::build_topology(cloth.faces, cloth.from.size());
+  const Positions rest_positions = cloth.places(surface.rest);
+  first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
+  first.held.assign(cloth.from.size(), false);
+  report.shells = first.surface.topology.component_count;
+
+  // Poses one after the other, since an animation remembers what was last finite; bases on all cores.
+  std::vector<Positions> poses;
+  bool simulated = false;
+  for (int n = report.picked.front(); n <= report.picked.back(); ++n) {
+    const scene::Pose pose = animation.pose(n);
+    simulated = simulated || !pose.cache.empty();
+    poses.push_back(cloth.places(scene::posed(surface, pose)));
+    report.frames.push_back({.frame = n});
+  }
+  if (!simulated)
+    log::warn(
+        "a rig stretches what cloth would not, at joints most of all, and its tension is taken for the "
+        "cloth's: waves "
+        "come out too short there; --exclude what is no cloth");
+  const std::vector<Piece> pieces = pieces_of(first.surface.topology, first.surface.rest, rest_positions,
+                                              request, simulated ? 8 : 4, report.follow);
+  report.bases.resize(poses.size());
+  std::atomic<int> done = 0;
+  std::mutex telling;
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t n) {
+    if (interrupted()) return;
+    const double began = wall_seconds();
+    FollowedFrame& frame = report.frames[n];
+    Positions base = poses[n];
+    double squares = 0;
+    frame.converged = true;
+    for (const Piece& piece : pieces) {
+      Positions pose(3, static_cast<Eigen::Index>(piece.vertices.size()));
+      for (std::size_t v = 0; v < piece.vertices.size(); ++v)
+        pose.col(static_cast<Eigen::Index>(v)) = poses[n].col(piece.vertices[v]);
+      const shell::Followed followed = piece.follower->follow(pose);
+      for (std::size_t v = 0; v < piece.vertices.size(); ++v)
+        base.col(piece.vertices[v]) = followed.base.col(static_cast<Eigen::Index>(v));
+      squares += followed.moved_rms * followed.moved_rms * static_cast<double>(piece.vertices.size());
+      frame.moved_most = std::max(frame.moved_most, followed.moved_most);
+      frame.iterations += followed.iterations;
+      frame.converged = frame.converged && followed.converged;
+    }
+    frame.moved_rms = std::sqrt(squares / static_cast<double>(base.cols()));
+    std::vector<double> kept;
+    for (const shell::Edge& edge : first.surface.topology.edges) {
+      const auto length = [&](const Positions& x) {
+        return (x.col(edge.vertex[0]) - x.col(edge.vertex[1])).norm();
+      };
+      kept.push_back(length(base) / length(rest_positions));
+    }
+    frame.length_kept = median(std::move(kept));
+    report.bases[n] = std::move(base);
+    frame.seconds = wall_seconds() - began;
+    const int now = ++done;
+    if (request.progress) {
+      const std::lock_guard lock(telling);
+      request.progress(now, static_cast<int>(poses.size()));
+    }
+  });
+  report.interrupted = interrupted();
+  if (report.interrupted) return report;
+  first.surface.positions = report.bases.front();
+  std::size_t most = 0;
+  double edge = 0;
+  for (const Piece& piece : pieces)
+    if (piece.vertices.size() > most) {
+      most = piece.vertices.size();
+      edge = piece.edge;
+    }
+  report.wavelength = request.wavelength.value_or(3 * edge);
+  first.material =
+      request.material ? *request.material : material_for(report.wavelength, first.surface, report.bases);
+  return report;
+}
+
+}  // namespace plisse::cloth

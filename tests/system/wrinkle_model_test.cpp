@@ -1,0 +1,122 @@
+// plisse wrinkle of a moving mesh: base surfaces that follow it, fields, and the scene that draws them.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "io/wrinkle_field.h"
+#include "system/plisse.h"
+
+namespace plisse::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class WrinkleModel : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  nlohmann::json report() const { return nlohmann::json::parse(read_text(folder_ / "report.json")); }
+  // A sheet of 1 m, flat in frame 1, then pressed together with the zigzags of a simulation whose mesh is too
+  // coarse.
+  void write_sheets(int frames, double pressed) const {
+    constexpr int n = 20;
+    for (int frame = 1; frame <= frames; ++frame) {
+      std::ofstream obj(folder_ / ("sheet_000" + std::to_string(frame) + ".obj"));
+      const double share = frames > 1 ? pressed * (frame - 1) / (frames - 1) : pressed;
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i)
+          obj << "v " << (1 - share) * i / n << ' ' << double(j) / n << ' '
+              << ((i % 2 == 0) ? 1 : -1) * 0.5 / n * std::sqrt(1 - (1 - share) * (1 - share)) << '\n';
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const int a = j * (n + 1) + i + 1;
+          obj << "f " << a << ' ' << a + 1 << ' ' << a + n + 2 << ' ' << a + n + 1 << '\n';
+        }
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(WrinkleModel, ACoarseSimulationBecomesCloth) {
+  write_sheets(4, 0.1);
+  const Outcome outcome =
+      plisse({"wrinkle", file("sheet_####.obj"), "-o", file("waves"), "--json", file("report.json"), "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = report();
+  ASSERT_EQ(json["frames"].size(), 4U);
+  EXPECT_EQ(json["shells"], 1);
+  EXPECT_NEAR(json["follow_m"].get<double>(), 0.4, 0.1);  // eight edges of 50 to 71 mm
+  // Flat at first: exactly calm.
+  EXPECT_EQ(json["frames"][0]["max_amplitude_m"], 0);
+  EXPECT_LT(json["frames"][0]["moved_most_m"].get<double>(), 1e-9);
+  // Pressed by a tenth: the zigzags are gone from the base, whose lines up the sheet are a tenth shorter than
+  // at rest, and go to waves.
+  const auto& last = json["frames"][3];
+  EXPECT_TRUE(last["follow_converged"]);
+  EXPECT_LT(last["length_kept"].get<double>(), 1);
+  EXPECT_GT(last["moved_rms_m"].get<double>(), 5e-3);  // zigzags of 11 mm either way
+  io::read_wrinkle_field(file("waves/field_0004.ply"), {});
+  ASSERT_EQ(plisse({"render", file("waves/scene.toml"), "--frames", "4", "--size", "64x64", "-o",
+                    file("frames"), "-q"})
+                .code,
+            0);
+  // The base surfaces are some as any other. Alone, not fading in: the waves take up what is lacking, ½(aω)²
+  // = 1 − .9².
+  ASSERT_EQ(plisse({"wrinkle", file("waves/base_0004.ply"), "-o", file("field.ply"), "--json",
+                    file("report.json"), "-q"})
+                .code,
+            0);
+  const double slope = report()["max_amplitude_m"].get<double>() * 2 * M_PI * report()["waves"].get<double>();
+  EXPECT_NEAR(slope * slope / 2, 1 - 0.9 * 0.9, 0.03);  // highest in the middle, lower at the free sides
+  // Waves twice as long are those of a cloth four times as thick.
+  ASSERT_EQ(plisse({"wrinkle", file("sheet_####.obj"), "--wavelength", "40 cm", "-o", file("long"), "--json",
+                    file("report.json"), "-q"})
+                .code,
+            0);
+  const double thick = report()["thickness_m"].get<double>();
+  ASSERT_EQ(plisse({"wrinkle", file("sheet_####.obj"), "--wavelength", "20 cm", "-o", file("short"), "--json",
+                    file("report.json"), "-q"})
+                .code,
+            0);
+  EXPECT_NEAR(thick / report()["thickness_m"].get<double>(), 4, 1);
+}
+
+TEST_F(WrinkleModel, FacesThatAreNoShellAreCutLooseOrLeftOut) {
+  write_sheets(1, 0);
+  {
+    std::ofstream obj(folder_ / "sheet_0001.obj", std::ios::app);
+    obj << "v 0.5 0.5 0.3\nf 221 222 442\nf 1 1 2\n";  // a fin on an inner edge, and no triangle at all
+  }
+  const Outcome outcome =
+      plisse({"wrinkle", file("sheet_0001.obj"), "-o", file("waves"), "--json", file("report.json")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("cut loose"));
+  EXPECT_EQ(report()["shells"], 2);
+  EXPECT_FALSE(report()["warnings"].empty());
+}
+
+TEST_F(WrinkleModel, SaysWhatIsWrong) {
+  write_sheets(2, 0.1);
+  const auto error = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "wrinkle");
+    const Outcome outcome = plisse(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("field.ply")}), HasSubstr("a folder"));
+  EXPECT_THAT(error({file("sheet_####.obj")}), HasSubstr("-o is missing"));
+  EXPECT_THAT(
+      error({file("sheet_####.obj"), "-o", file("waves"), "--fabric", "silk", "--wavelength", "1 cm"}),
+      HasSubstr("give one"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--follow", "long"}),
+              HasSubstr("--follow: 'long'"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--only", "nothing"}),
+              HasSubstr("nothing"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--frames", "3"}), HasSubstr("3"));
+  EXPECT_THAT(error({"--example", "stretched-sheet", "--follow", "1 m", "-o", file("field.ply")}),
+              HasSubstr("--follow"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "waves"));
+}
+
+}  // namespace
+}  // namespace plisse::test
