@@ -290,10 +290,16 @@ ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
           {"wall_s", report.wall_s},           {"outputs", outputs}};
 }
 
-cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
-                                            cloth::WrinkleSequenceRequest& request) {
+cloth::WrinkleSequenceRequest sequence_request_of(const Arguments& arguments, cloth::WrinkleRequest each) {
+  cloth::WrinkleSequenceRequest request;
+  request.each = std::move(each);
   request.fade = whole_number("--fade", arguments.fade, 0, 1000);
   request.hysteresis = number_in("--hysteresis", arguments.hysteresis, 1, 1e6);
+  return request;
+}
+
+cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
+                                            cloth::WrinkleSequenceRequest& request) {
   install_interrupt_handlers();
   cloth::WrinkleSequenceReport report;
   {
@@ -319,8 +325,7 @@ cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
 int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
   if (!arguments.example.empty() || !arguments.evaluate.empty())
     throw Error(ExitCode::bad_input, "--example and --evaluate are for one base surface, not for a sequence");
-  cloth::WrinkleSequenceRequest request;
-  request.each = std::move(each);
+  cloth::WrinkleSequenceRequest request = sequence_request_of(arguments, std::move(each));
   request.bases = arguments.input;
   request.cache = arguments.cache;
   request.frames = arguments.frames;
@@ -330,11 +335,13 @@ int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
-double length_option(const std::string& option, const std::string& text) {
+// 0 counts where it is `allowed`; no mesh has edges of a micrometre.
+double length_option(const std::string& option, const std::string& text, bool zero_allowed) {
   const auto value = parse_length(text);
-  if (!value || !(*value >= 0 && *value <= 1e6))
+  if (!value || !((zero_allowed && *value == 0) || (*value >= 1e-6 && *value <= 1e6)))
     throw Error(ExitCode::bad_input,
-                fmt::format("{}: '{}' is no length of 0 m or more, such as '24 cm'", option, text));
+                fmt::format("{}: '{}' is no length from 1e-6 m to 1e6 m, such as '24 cm'{}", option, text,
+                            zero_allowed ? ", nor 0" : ""));
   return *value;
 }
 
@@ -348,8 +355,9 @@ cloth::FollowRequest follow_request_of(const Arguments& arguments) {
   if (!arguments.only.empty()) scene.wrinkles.only = arguments.only;
   if (!arguments.exclude.empty()) scene.wrinkles.exclude = arguments.exclude;
   request.frames = arguments.frames;
-  if (!arguments.follow.empty()) request.follow = length_option("--follow", arguments.follow);
-  if (!arguments.wavelength.empty()) request.wavelength = length_option("--wavelength", arguments.wavelength);
+  if (!arguments.follow.empty()) request.follow = length_option("--follow", arguments.follow, true);
+  if (!arguments.wavelength.empty())
+    request.wavelength = length_option("--wavelength", arguments.wavelength, false);
   if (!arguments.fabric.empty()) {
     if (request.wavelength)
       throw Error(ExitCode::bad_input,
@@ -363,17 +371,34 @@ cloth::FollowRequest follow_request_of(const Arguments& arguments) {
 int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
   refuse_without_effect({{"--vertices", !arguments.vertices.empty()},
                          {"--seed", !arguments.seed.empty()},
+                         {"--example", !arguments.example.empty()},
                          {"--evaluate", !arguments.evaluate.empty()},
+                         {"--local-law", arguments.local_law},
                          {"--free-held", arguments.free_held},
                          {"--cache-dir", arguments.solved.given()}},
                         "for a model, of which nothing is draped or held");
-  const std::filesystem::path folder = arguments.output;
-  if (folder.empty() || folder.has_extension())
+  const std::filesystem::path folder = arguments.output, scene = folder / "scene.toml";
+  const std::vector<std::string> files = {".ply", ".txt", ".obj", ".glb", ".svg", ".png", ".toml"};
+  const bool a_file = std::filesystem::exists(folder)
+                          ? !std::filesystem::is_directory(folder)
+                          : std::find(files.begin(), files.end(), folder.extension().string()) != files.end();
+  if (folder.empty() || a_file)
     throw Error(
         ExitCode::bad_input,
-        fmt::format("-o {}: of a model base surfaces and fields are written into a folder: give its name",
-                    folder.empty() ? "is missing" : "'" + folder.string() + "'"));
+        fmt::format(
+            "-o {}: of a model base surfaces and fields are written into a folder, and this is {}: name "
+            "one, such as 'waves'",
+            folder.empty() ? "is missing" : "'" + folder.string() + "'", folder.empty() ? "none" : "a file"));
+  if (!each.mesh.empty() && !config::is_frame_pattern(each.mesh.string()))
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("--mesh {}: one file for all frames of a model; give it a place for the number: '{}'",
+                    each.mesh.string(),
+                    each.mesh.stem().string() + "_####" + each.mesh.extension().string()));
+  // All that can be wrong with what was asked for is told before the long part.
+  cloth::WrinkleSequenceRequest request = sequence_request_of(arguments, std::move(each));
   cloth::FollowRequest follow = follow_request_of(arguments);
+  check_writable(scene);
   install_interrupt_handlers();
   cloth::FollowReport followed;
   {
@@ -387,30 +412,29 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
       "{} vertices in {} shell{}: {} shorter than {:.3g} m is handed to waves; cloth of {:.3g} mm",
       first.surface.topology.vertex_count, followed.shells, followed.shells == 1 ? "" : "s",
       followed.follow > 0 ? "what is" : "nothing", followed.follow, 1e3 * first.material.thickness));
-  std::filesystem::create_directories(folder);
-  cloth::WrinkleSequenceRequest request;
-  request.each = std::move(each);
   request.each.scene = first;
   request.each.output = folder / "field_####.ply";
-  request.poses = followed.bases;
   request.first = followed.frames.front().frame;
-  request.frames = arguments.frames.empty() ? follow.scene.model.frames : arguments.frames;
   ordered_json outputs = ordered_json::array();
   bool converged = true;
   for (std::size_t n = 0; n < followed.frames.size(); ++n) {
     const cloth::FollowedFrame& frame = followed.frames[n];
     converged = converged && frame.converged;
     if (!frame.converged) log::warn(fmt::format("frame {}: its base surface did not converge", frame.frame));
-    if (std::find(followed.picked.begin(), followed.picked.end(), frame.frame) == followed.picked.end())
-      continue;
     const auto path =
         std::filesystem::path(config::numbered_path((folder / "base_####.ply").string(), frame.frame));
-    cloth::write_base(path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
-                      first.surface.topology.faces, first.surface.rest, first.material, first.held,
-                      followed.bases[n], frame.converged ? "" : "not in the steps allowed");
+    cloth::write_base(
+        path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
+        first.surface.topology.faces, first.surface.rest, first.material, first.held, followed.bases[n],
+        frame.converged ? "" : "no step lowers its energy any more, or too many were needed", first.chords);
     outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
   }
+  if (followed.picked.size() < followed.frames.size())
+    log::notice(
+        "frames between those picked are solved and written as well, so that the folder can be played");
+  request.poses = std::move(followed.bases);
   const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
+  if (report.interrupted) return 128 + signal_number();
   std::size_t others = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -424,7 +448,6 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
         "{}: {} base surfaces of other frames or runs lie there already, and its scene draws them "
         "as well",
         folder.string(), others));
-  const std::filesystem::path scene = folder / "scene.toml";
   write_whole_file(scene, "# plisse render " + scene.string() +
                               " -o frames\n[model]\npath = \"base_####.ply\"\n[bias]\nfield = "
                               "\"field_####.ply\"\nuse = \"direct\"\n");
@@ -448,7 +471,6 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
     entry["follow_s"] = frame.seconds;
   }
   write_report(json, arguments.common.json());
-  if (report.interrupted) return 128 + signal_number();
   return static_cast<int>(converged && report.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 

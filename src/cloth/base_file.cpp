@@ -12,12 +12,13 @@ namespace plisse::cloth {
 void write_base(const std::filesystem::path& path, const std::string& title,
                 const std::vector<shell::Face>& faces, const std::vector<shell::RestFace>& rest,
                 const shell::Material& material, const std::vector<bool>& held,
-                const shell::Positions& positions, const std::string& stopped) {
+                const shell::Positions& positions, const std::string& stopped, bool chords) {
   using io::PlyProperty;
   io::Ply ply;
   ply.comments = {title, fmt::format("young {}", material.young), fmt::format("poisson {}", material.poisson),
                   fmt::format("thickness {}", material.thickness),
                   fmt::format("density {}", material.density)};
+  if (!chords) ply.comments.push_back("chords none");
   if (!stopped.empty()) ply.comments.push_back("not converged: " + stopped);
   io::PlyElement vertices{"vertex", static_cast<std::size_t>(positions.cols())},
       triangles{"face", faces.size()};

@@ -158,47 +158,52 @@ double median(std::vector<double> values) {
 }
 
 // The thickness at which the waves of the squeezed area have the wavelength, in the median by area times
-// compression: |ω| goes with h^−½ (local_waves.h). Young's modulus multiplies all energies alike.
+// compression: h² = 12(1 − ν²) K/|ω|⁴, K the stiffness that curvature and tension of the base give
+// (local_waves.h), whatever h is. Young's modulus multiplies all energies alike.
 shell::Material material_for(double wavelength, const wrinkle::BaseSurface& surface,
                              const std::vector<Positions>& bases) {
   shell::Material material;
   material.young = 1e5;
   material.poisson = 0.3;
-  material.thickness = 1e-2 * wavelength;
-  constexpr std::size_t samples = 8;  // frames, evenly picked
-  constexpr int rounds = 3;           // for what does not go with h: waves as long as their patch
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<std::pair<double, double>> rates;  // |ω|, weight
-    double sum = 0;
-    for (std::size_t n = 0; n < std::min(samples, bases.size()); ++n) {
-      wrinkle::BaseSurface frame = surface;
-      frame.positions = bases[bases.size() <= samples ? n : n * (bases.size() - 1) / (samples - 1)];
-      auto forms = wrinkle::face_forms(frame);
-      wrinkle::find_noise(forms, frame, material, false);
-      const auto free = wrinkle::wrinkle_free_faces(forms, frame.topology, wrinkle::WrinkleFreeRule::paper);
-      std::vector<bool> live;
-      for (const bool f : free) live.push_back(!f);
-      const auto waves = wrinkle::local_waves(forms, frame.topology, live,
-                                              std::vector<bool>(frame.topology.vertex_count, false),
-                                              wrinkle::Model{material});
-      for (std::size_t f = 0; f < waves.size(); ++f) {
-        const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
-        if (!(weight > 0)) continue;
-        rates.emplace_back(waves[f].gradient.norm(), weight);
-        sum += weight;
-      }
+  // Cloth thicker than a tenth of its waves is no thin shell; thinner than the other, waves are as long as
+  // their patch in any case.
+  const double thickest = 0.1 * wavelength, thinnest = 1e-4 * wavelength;
+  material.thickness = thinnest;
+  std::vector<std::pair<double, double>> stiffness;  // K, weight
+  double sum = 0;
+  for (const Positions& positions : bases) {
+    wrinkle::BaseSurface frame = surface;
+    frame.positions = positions;
+    auto forms = wrinkle::face_forms(frame);
+    wrinkle::find_noise(forms, frame, material, false);
+    const auto free = wrinkle::wrinkle_free_faces(forms, frame.topology, wrinkle::WrinkleFreeRule::paper);
+    std::vector<bool> live;
+    for (const bool f : free) live.push_back(!f);
+    const auto waves =
+        wrinkle::local_waves(forms, frame.topology, live,
+                             std::vector<bool>(frame.topology.vertex_count, false), wrinkle::Model{material});
+    for (std::size_t f = 0; f < waves.size(); ++f) {
+      const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
+      if (!(weight > 0)) continue;
+      stiffness.emplace_back(waves[f].stiffness, weight);
+      sum += weight;
     }
-    std::sort(rates.begin(), rates.end());
-    double below = 0, rate = 0;
-    for (const auto& [value, weight] : rates) {
-      below += weight;
-      rate = value;
-      if (below >= sum / 2) break;
-    }
-    if (!(rate > 0)) break;  // nothing is squeezed
-    const double now = 2 * std::numbers::pi / rate;
-    material.thickness *= std::clamp((wavelength / now) * (wavelength / now), 0.01, 100.0);
   }
+  std::sort(stiffness.begin(), stiffness.end());
+  double below = 0, middle = 0;
+  for (const auto& [value, weight] : stiffness) {
+    below += weight;
+    middle = value;
+    if (below >= sum / 2) break;
+  }
+  const double rate = 2 * std::numbers::pi / wavelength, poisson = material.poisson,
+               wanted = std::sqrt(12 * (1 - poisson * poisson) * std::max(middle, 0.0)) / (rate * rate);
+  if (wanted > thickest)
+    log::warn(fmt::format(
+        "waves {:.3g} m long would need cloth {:.3g} m thick on a surface so curved or so tense, and "
+        "get {:.3g} m: they come out shorter; a smaller --wavelength or a larger --follow helps",
+        wavelength, wanted, thickest));
+  material.thickness = std::clamp(wanted, thinnest, thickest);
   return material;
 }
 
@@ -225,14 +230,24 @@ FollowReport follow_model(const FollowRequest& request) {
   first.held.assign(cloth.from.size(), false);
   report.shells = first.surface.topology.component_count;
 
+  // The thickness is the clip's and not that of the frames picked: a few of them, evenly, are followed as
+  // well.
+  constexpr int samples = 8;
+  std::set<int> wanted, sampled;
+  for (int n = report.picked.front(); n <= report.picked.back(); ++n) wanted.insert(n);
+  const int last = animation.timeline().frame_count;
+  for (int k = 0; k < samples && !request.material; ++k) sampled.insert(1 + k * (last - 1) / (samples - 1));
+  wanted.insert(sampled.begin(), sampled.end());
+
   // Poses one after the other, since an animation remembers what was last finite; bases on all cores.
   std::vector<Positions> poses;
   bool simulated = false;
-  for (int n = report.picked.front(); n <= report.picked.back(); ++n) {
+  std::vector<FollowedFrame> frames;
+  for (const int n : wanted) {
     const scene::Pose pose = animation.pose(n);
     simulated = simulated || !pose.cache.empty();
     poses.push_back(cloth.places(scene::posed(surface, pose)));
-    report.frames.push_back({.frame = n});
+    frames.push_back({.frame = n});
   }
   if (!simulated)
     log::warn(
@@ -241,17 +256,18 @@ FollowReport follow_model(const FollowRequest& request) {
         "come out too short there; --exclude what is no cloth");
   const std::vector<Piece> pieces = pieces_of(first.surface.topology, first.surface.rest, rest_positions,
                                               request, simulated ? 8 : 4, report.follow);
-  report.bases.resize(poses.size());
+  std::vector<Positions> bases(poses.size());
   std::atomic<int> done = 0;
   std::mutex telling;
   tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t n) {
     if (interrupted()) return;
     const double began = wall_seconds();
-    FollowedFrame& frame = report.frames[n];
+    FollowedFrame& frame = frames[n];
     Positions base = poses[n];
     double squares = 0;
     frame.converged = true;
     for (const Piece& piece : pieces) {
+      if (interrupted()) return;
       Positions pose(3, static_cast<Eigen::Index>(piece.vertices.size()));
       for (std::size_t v = 0; v < piece.vertices.size(); ++v)
         pose.col(static_cast<Eigen::Index>(v)) = poses[n].col(piece.vertices[v]);
@@ -272,7 +288,7 @@ FollowReport follow_model(const FollowRequest& request) {
       kept.push_back(length(base) / length(rest_positions));
     }
     frame.length_kept = median(std::move(kept));
-    report.bases[n] = std::move(base);
+    bases[n] = std::move(base);
     frame.seconds = wall_seconds() - began;
     const int now = ++done;
     if (request.progress) {
@@ -282,17 +298,25 @@ FollowReport follow_model(const FollowRequest& request) {
   });
   report.interrupted = interrupted();
   if (report.interrupted) return report;
+  std::vector<Positions> of_clip;
+  for (std::size_t n = 0; n < bases.size(); ++n) {
+    const int number = frames[n].frame;
+    if (sampled.contains(number)) of_clip.push_back(bases[n]);
+    if (number < report.picked.front() || number > report.picked.back()) continue;
+    report.frames.push_back(frames[n]);
+    report.bases.push_back(std::move(bases[n]));
+  }
   first.surface.positions = report.bases.front();
   std::size_t most = 0;
   double edge = 0;
   for (const Piece& piece : pieces)
-    if (piece.vertices.size() > most) {
+    if (piece.vertices.size() > most) {  // the same shell as report.follow's, but where two are as large
       most = piece.vertices.size();
       edge = piece.edge;
     }
   report.wavelength = request.wavelength.value_or(3 * edge);
   first.material =
-      request.material ? *request.material : material_for(report.wavelength, first.surface, report.bases);
+      request.material ? *request.material : material_for(report.wavelength, first.surface, of_clip);
   return report;
 }
 

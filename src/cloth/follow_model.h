@@ -18,7 +18,7 @@ struct FollowRequest {
   std::optional<double> follow;  // Λ, m; none: 8 mean rest edges of each shell for sequences and caches, 4
                                  // for skins and morphs; 0: the pose itself
   std::optional<shell::Material> material;  // none: one whose waves have the `wavelength`
-  std::optional<double> wavelength;         // m; none: 3 mean rest edges
+  std::optional<double> wavelength;         // m, > 0, in the median over the clip; none: 3 mean rest edges
   std::function<void(int done, int of)> progress;
 };
 
@@ -36,11 +36,11 @@ struct FollowReport {
   // have their full length.
   WrinkleScene first;
   std::vector<shell::Positions> bases;  // from the first picked frame to the last
-  std::vector<FollowedFrame> frames;
+  std::vector<FollowedFrame> frames;    // the same
   std::vector<int> picked;
   std::size_t shells = 0;
   double follow = 0;      // m: Λ of the largest shell
-  double wavelength = 0;  // m: asked for, where no material is
+  double wavelength = 0;  // m: what a material was chosen for, where none was given
   bool interrupted = false;
 };
 

@@ -65,6 +65,7 @@ WrinkleScene read_base(const fs::path& file) {
     if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
   WrinkleScene scene;
   scene.name = file.stem().string();
+  scene.chords = std::find(ply.comments.begin(), ply.comments.end(), "chords none") == ply.comments.end();
   std::vector<shell::Face> faces = ply.triangles(io::Ply::Polygons::refused);
   scene.surface.positions = points_to_eigen(ply.vectors("vertex"));
   if (!ply.element("face").find("rest"))

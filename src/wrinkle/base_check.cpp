@@ -84,8 +84,10 @@ std::vector<BaseFault> base_faults(const shell::Topology& topology, const std::v
         {"kinks",
          fmt::format(
              "the tension field kinks: crests of neighbouring faces meet at more than 45 degrees on "
-             "{:.1f} % of the area, where waves cannot follow them; a base surface that is solved to the "
-             "end, or has a little residual stiffness (drape --residual 1e-3), has none",
+             "{:.1f} % of the area, where waves cannot follow them; what helps: where it is draped, solving "
+             "to "
+             "the end or a little residual stiffness (drape --residual 1e-3), where it follows a model, a "
+             "larger --follow",
              100 * kinks / area)});
   if (crest > worth * area)
     faults.push_back(

@@ -238,6 +238,8 @@ SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
     state = std::move(next);
     return solution;
   };
+  frame.energy = problem.relaxed_energy();  // where nothing wrinkles
+  frame.reason = "stationary";
   if (problem.size() == 0) {  // no face is compressed
     now_.reset();
     before_.reset();

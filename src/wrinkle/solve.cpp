@@ -19,6 +19,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "shell/cholesky.h"
 
 namespace plisse::wrinkle {
@@ -165,11 +166,14 @@ class Descent {
         end(true, "stationary");
       } else if (solution_.iterations == options_.max_iterations) {
         end(false, "too many iterations");
+      } else if (interrupted()) {
+        end(false, "interrupted");
       } else if (energy_ + problem_.relaxed_energy() - options_.target > hopeless * gain_) {
         end(false, "does not come below the target");
       } else {
         hold_at_bounds();
-        far = far && solution_.iterations < newton && newton_step();
+        // The exact Hessian's steps go on as long as they work: nothing is faster.
+        far = far && (solution_.iterations < newton || level_ == 0) && newton_step();
         if (!far) trusted_step();
       }
     }
@@ -276,7 +280,7 @@ class Descent {
 
   void trusted_step() {
     VectorXd step;
-    bool indefinite = false;
+    bool indefinite = false, brought_back = false;
     for (; lambda_ <= most_damping; lambda_ = std::max(4 * lambda_, least_damping)) {
       const double lifted = lambda_ < first_lift ? 0 : std::min(lambda_ / whole_lift, 1.0);
       if (!model_.step(held_, lifted, lambda_, 1, step)) {
@@ -301,6 +305,8 @@ class Descent {
           }
           return end(true, "what is left is below the rounding of the energy");
         }
+        if (brought_back) break;  // small steps are below rounding, and larger ones do not go down
+        brought_back = true;
         lambda_ = telling_damping / 4;  // and the loop makes it four times that
         continue;
       }

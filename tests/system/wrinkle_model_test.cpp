@@ -96,7 +96,7 @@ TEST_F(WrinkleModel, FacesThatAreNoShellAreCutLooseOrLeftOut) {
 }
 
 TEST_F(WrinkleModel, SaysWhatIsWrong) {
-  write_sheets(2, 0.1);
+  write_sheets(3, 0.1);
   const auto error = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "wrinkle");
     const Outcome outcome = plisse(arguments);
@@ -112,10 +112,22 @@ TEST_F(WrinkleModel, SaysWhatIsWrong) {
               HasSubstr("--follow: 'long'"));
   EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--only", "nothing"}),
               HasSubstr("nothing"));
-  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--frames", "3"}), HasSubstr("3"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--frames", "4"}), HasSubstr("4"));
   EXPECT_THAT(error({"--example", "stretched-sheet", "--follow", "1 m", "-o", file("field.ply")}),
               HasSubstr("--follow"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "waves"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--wavelength", "0"}),
+              HasSubstr("--wavelength: '0'"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--fade", "slow"}), HasSubstr("--fade"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--mesh", file("m.ply")}),
+              HasSubstr("m_####.ply"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("waves"), "--local-law"}), HasSubstr("--local-law"));
+  EXPECT_THAT(error({file("sheet_####.obj"), "-o", file("sheet_0001.obj")}), HasSubstr("a file"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "waves/base_0001.ply"));
+  // A folder with a dot in its name is one, and frames with a gap can be played.
+  EXPECT_EQ(plisse({"wrinkle", file("sheet_####.obj"), "-o", file("walk.v2"), "--frames", "1,3", "-q"}).code,
+            0);
+  EXPECT_EQ(
+      plisse({"render", file("walk.v2/scene.toml"), "--size", "32x32", "-o", file("frames"), "-q"}).code, 0);
 }
 
 }  // namespace
