@@ -166,10 +166,7 @@ cloth::WrinkleScene scene_of(const Arguments& arguments) {
   if (!arguments.vertices.empty() || !arguments.seed.empty())
     throw Error(ExitCode::bad_input, "--vertices and --seed are for --example: a file has its own mesh");
   if (std::filesystem::path(arguments.input).extension() == ".ply") return cloth::read_base(arguments.input);
-  cloth::WrinkleScene scene = cloth::base_of(cloth::load_drape(arguments.input), arguments.solved.folder());
-  // The TFW authors' set-ups stay as their own program has them.
-  scene.chords = std::filesystem::path(arguments.input).extension() != ".json";
-  return scene;
+  return cloth::base_of(cloth::load_drape(arguments.input), arguments.solved.folder());
 }
 
 bool is_sequence(const Arguments& arguments) {

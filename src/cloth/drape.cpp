@@ -133,7 +133,7 @@ void write_base(const std::filesystem::path& path, const DrapeScene& scene, cons
   for (Eigen::Index v = 0; v < positions.cols(); ++v) held.push_back(conditions.held.col(v).all());
   write_base(path, fmt::format("plisse drape {} load {}", scene.name, frame.load), scene.faces,
              shell::rest_faces(scene.rest, scene.rest_faces), scene.material, held, positions,
-             frame.equilibrium.converged ? "" : frame.equilibrium.reason);
+             frame.equilibrium.converged ? "" : frame.equilibrium.reason, scene.chords);
 }
 
 Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,

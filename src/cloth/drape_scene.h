@@ -24,6 +24,7 @@ struct DrapeScene {
   std::vector<shell::Face> faces;       // of the base surface
   bool rest_flat = false;               // bending is measured from the flat shape, also if `rest` is curved
   shell::Positions start;               // of the base surface
+  bool chords = true;                   // WrinkleScene::chords of its base surface
   bool solved = false;                  // `start` is the solution (the base_mesh of a set-up for wrinkles)
   shell::Material material;
   shell::Stretching stretching = shell::Stretching::tension_field;

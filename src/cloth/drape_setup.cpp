@@ -438,7 +438,9 @@ DrapeScene scene_of(Setup& setup) {
 DrapeScene load_drape(const fs::path& file) {
   if (file.extension() == ".json") {
     Setup setup(file);
-    return scene_of(setup);
+    DrapeScene scene = scene_of(setup);
+    scene.chords = false;
+    return scene;
   }
   if (file.extension() != ".toml")
     throw Error(ExitCode::bad_input, fmt::format("{}: neither a SCENE.toml nor a SETUP.json", file.string()));

@@ -90,7 +90,7 @@ WrinkleScene read_base(const fs::path& file) {
 WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   shell::Shell shell = shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
-  WrinkleScene result{scene.name, {}, scene.material, {}, true};
+  WrinkleScene result{scene.name, {}, scene.material, {}, scene.chords};
   result.surface.positions = scene.start;
   if (!scene.solved) {
     const SolvedCache answers(cache);
