@@ -61,7 +61,7 @@ void read_materials(const std::filesystem::path& obj, const std::string& library
 }  // namespace
 
 Model import_obj(const std::filesystem::path& path, const ImportOptions& options) {
-  const ObjFile file = read_obj(path, {.uvs_and_normals = true});
+  const ObjFile file = read_obj(path, {.uvs_and_normals = true, .polygons = ObjWanted::Polygons::cut});
   Model model;
   model.file_vertex_count = file.positions.size();
   model.path = file.path;

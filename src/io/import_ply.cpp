@@ -28,7 +28,7 @@ Model import_ply(const std::filesystem::path& path, const ImportOptions& options
     mesh.file_vertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     mesh.positions.emplace_back(world * glm::dvec4(position, 1));
   }
-  const auto triangles = ply.triangles(Ply::Polygons::split);
+  const auto triangles = ply.triangles(Ply::Polygons::cut);
   mesh.triangles.reserve(3 * triangles.size());
   for (const auto& triangle : triangles)
     mesh.triangles.insert(mesh.triangles.end(), triangle.begin(), triangle.end());

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "mesh/cut_polygon.h"
 
 namespace plisse::io {
 namespace {
@@ -108,11 +109,19 @@ class Reader {
   void read_face(std::string_view rest) {
     read_corners(rest);
     if (corners_.size() < 3) fail(fmt::format("a face needs three corners, this has {}", corners_.size()));
-    if (corners_.size() > 3 && !wanted_.polygons)
+    if (corners_.size() > 3 && wanted_.polygons == ObjWanted::Polygons::refused)
       fail(fmt::format("the faces of this mesh need three corners each, this has {}", corners_.size()));
     if (file_.runs.empty()) start_run();
-    for (std::size_t i = 1; i + 1 < corners_.size(); ++i)
-      file_.triangles.push_back({corners_[0], corners_[i], corners_[i + 1]});
+    if (corners_.size() == 3 || wanted_.polygons == ObjWanted::Polygons::fans) {
+      for (std::size_t i = 1; i + 1 < corners_.size(); ++i)
+        file_.triangles.push_back({corners_[0], corners_[i], corners_[i + 1]});
+      return;
+    }
+    outline_.clear();
+    for (const Corner& corner : corners_)
+      outline_.push_back(file_.positions[static_cast<std::size_t>(corner.position)]);
+    for (const auto& [a, b, c] : cut_polygon(outline_))
+      file_.triangles.push_back({corners_[a], corners_[b], corners_[c]});
   }
 
   void read_line_element(std::string_view rest) {
@@ -129,6 +138,7 @@ class Reader {
   ObjFile::Run run_;  // that faces belong to now
   std::size_t line_ = 0, continued_ = 0;
   std::vector<Corner> corners_;
+  std::vector<glm::dvec3> outline_;
 };
 
 // With blanks as _: names end at white space.

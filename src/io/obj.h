@@ -30,7 +30,7 @@ struct ObjFile {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec2> uvs;
   std::vector<glm::vec3> normals;
-  std::vector<std::array<Corner, 3>> triangles;     // polygons as fans from their first corner
+  std::vector<std::array<Corner, 3>> triangles;     // polygons as `ObjWanted` says
   std::vector<std::array<std::uint32_t, 2>> lines;  // pieces of line elements: numbers of positions
   std::vector<Run> runs;
   std::vector<std::string> libraries;  // mtllib
@@ -41,7 +41,9 @@ struct ObjFile {
 // The data to read besides positions and faces. Other data is ignored, even if it is damaged.
 struct ObjWanted {
   bool uvs_and_normals = false, lines = false;
-  bool polygons = true;  // false: a face of more than three corners is an error
+  // Faces of more than three corners: `cut` inside themselves by where their corners lie
+  // (mesh/cut_polygon.h); fans from their first corner, which depend on the file's numbers only; or an error.
+  enum class Polygons { fans, cut, refused } polygons = Polygons::fans;
 };
 
 // Throws Error(bad_input) with file:line for numbers that cannot be read or are not finite, faces with fewer

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "mesh/cut_polygon.h"
 
 namespace plisse::io {
 namespace {
@@ -313,6 +314,7 @@ std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) cons
   if (!corners || !corners->list) throw bad("element 'face' has no list 'vertex_indices'");
   const auto count = static_cast<double>(element("vertex").count);
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<glm::dvec3> positions, outline;
   triangles.reserve(corners->ends.size());
   for (std::size_t f = 0, begin = 0; f < corners->ends.size(); begin = corners->ends[f++]) {
     const std::size_t end = corners->ends[f];
@@ -326,7 +328,15 @@ std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) cons
             fmt::format("face {}: there is no vertex {}; the file has {}, counted from 0", f, corner, count));
       return static_cast<std::uint32_t>(corner);
     };
-    for (std::size_t i = begin + 1; i + 1 < end; ++i) triangles.push_back({id(begin), id(i), id(i + 1)});
+    if (end - begin == 3 || polygons == Polygons::fans) {
+      for (std::size_t i = begin + 1; i + 1 < end; ++i) triangles.push_back({id(begin), id(i), id(i + 1)});
+      continue;
+    }
+    if (positions.empty()) positions = vectors("vertex");
+    outline.clear();
+    for (std::size_t i = begin; i < end; ++i) outline.push_back(positions[id(i)]);
+    for (const auto& [a, b, c] : cut_polygon(outline))
+      triangles.push_back({id(begin + a), id(begin + b), id(begin + c)});
   }
   return triangles;
 }

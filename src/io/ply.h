@@ -54,9 +54,8 @@ struct Ply {
   std::vector<glm::dvec3> vectors(std::string_view element, const std::string& prefix = "") const;
   // A list property that has `length` values for every item.
   const std::vector<double>& lists(std::string_view element, std::string_view name, std::size_t length) const;
-  // The corners of the faces, numbers of vertices from 0. Polygons become fans from their first corner, or
-  // are refused as well.
-  enum class Polygons { split, refused };
+  // The corners of the faces, numbers of vertices from 0. Polygons: as ObjWanted::Polygons (io/obj.h).
+  enum class Polygons { fans, cut, refused };
   std::vector<std::array<std::uint32_t, 3>> triangles(Polygons polygons) const;
 };
 

@@ -123,12 +123,14 @@ struct FileMesh {
   std::string faces;  // fingerprint of which vertices they join
 };
 
+// Polygons as fans here: a later frame, whose polygons would be cut differently, has the first one's
+// triangles.
 FileMesh read_mesh(const fs::path& path) {
   FileMesh mesh;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   if (is_ply(path)) {
     const Ply file = read_ply(path, {"x", "y", "z", "vertex_indices", "vertex_index"});
-    triangles = file.triangles(Ply::Polygons::split);
+    triangles = file.triangles(Ply::Polygons::fans);
     mesh.positions = file.vectors("vertex");
   } else {
     ObjFile file = read_obj(path);

@@ -63,7 +63,7 @@ std::map<Edge, std::size_t> edges_of(const WrinkleField& field) {
 WrinkleField read_text(const fs::path& path, const fs::path& mesh) {
   const fs::path phi_file = existing_sibling(path, "phi"), dphi_file = existing_sibling(path, "dphi");
   // The vertices in the file's own order, which is what text files count.
-  ObjFile obj = read_obj(mesh, {.polygons = false});
+  ObjFile obj = read_obj(mesh, {.polygons = ObjWanted::Polygons::refused});
   if (obj.triangles.empty())
     throw bad(mesh.string(),
               "has no triangles; a wrinkle field's text files need the OBJ of their base surface");

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/import.h"
 #include "support/errors.h"
 #include "support/files.h"
@@ -109,6 +110,54 @@ TEST_F(ObjTest, SequenceByEveryNameForIt) {
       for (const glm::dvec3& p : *model.cache.frame(f)) EXPECT_EQ(p.z, static_cast<double>(f) + 8);
     EXPECT_EQ(model.meshes[0].uvs.size(), 4U);
   }
+}
+
+double area_of(const Mesh& mesh, const std::vector<glm::dvec3>& positions) {
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t c) { return positions.at(mesh.triangles[t + c]); };
+    area += glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))) / 2;
+  }
+  return area;
+}
+
+// An L of three unit squares, whose fan from the first corner named here would reach outside.
+TEST_F(ObjTest, PolygonsAreCutInsideThemselves) {
+  const std::string corners = "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n";
+  std::string obj;
+  for_each_line(corners, [&](std::string_view line, std::size_t) { obj += fmt::format("v {}\n", line); });
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      corners + "6 2 3 4 5 0 1\n";
+  for (const fs::path& path : {write("l.obj", obj + "f 3 4 5 6 1 2\n"), write("l.ply", ply)}) {
+    const Model model = import_model(path);
+    EXPECT_EQ(model.meshes[0].triangles.size(), 12U);
+    EXPECT_NEAR(area_of(model.meshes[0], model.meshes[0].positions), 3, 1e-12) << path;
+  }
+}
+
+// A quad whose better diagonal changes over time keeps the one of the first frame.
+TEST_F(ObjTest, SequencesAreCutAsTheirFirstFrame) {
+  const auto frame = [](double flat, const char* face) {
+    return fmt::format("v -1 0 0\nv 0 -{0} 0\nv 1 0 0\nv 0 {0} 0\n{1}\n", flat, face);
+  };
+  write("k_1.obj", frame(0.5, "f 1 2 3 4"));
+  write("k_2.obj", frame(2, "f 1 2 3 4"));
+  const Model model = import_model(folder_ / "k_#.obj");
+  const Mesh& mesh = model.meshes[0];
+  const Model alone = import_model(folder_ / "k_2.obj");
+  const auto joins = [](const Mesh& of, double x) {  // a triangle on both vertices at x and −x of the axis
+    for (std::size_t t = 0; t < of.triangles.size(); t += 3) {
+      int found = 0;
+      for (std::size_t c = 0; c < 3; ++c) found += std::abs(of.positions[of.triangles[t + c]].x) == x ? 1 : 0;
+      if (found == 2) return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(joins(mesh, 1));
+  EXPECT_TRUE(joins(alone.meshes[0], 1));
+  EXPECT_NEAR(area_of(mesh, *model.cache.frame(1)), 4, 1e-12);
 }
 
 TEST_F(ObjTest, SequenceWithoutLeadingZerosCountsAsNumbers) {

@@ -1,8 +1,11 @@
 #include "support/readers.h"
 
 #include <array>
+#include <glm/glm.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "config/paint_file.h"
@@ -12,6 +15,7 @@
 #include "io/point_cache.h"
 #include "io/read_model.h"
 #include "io/wrinkle_field.h"
+#include "mesh/cut_polygon.h"
 #include "support/files.h"
 
 namespace plisse::test {
@@ -69,6 +73,19 @@ void read_as_field(std::string_view bytes, const fs::path& folder) {
     bytes = end == std::string_view::npos ? std::string_view{} : bytes.substr(end + mark.size());
   }
   io::read_wrinkle_field(folder / "q_amplitude_s.txt", folder / "q.obj");
+}
+
+void read_as_polygon(std::string_view bytes, const fs::path&) {
+  // Small whole numbers, so that corners often fall together or onto a line.
+  std::vector<glm::dvec3> corners;
+  for (std::size_t i = 0; i + 2 < bytes.size() && corners.size() < 64; i += 3)
+    corners.emplace_back(bytes[i] % 8, bytes[i + 1] % 8, (bytes[i + 2] % 8) / 7);
+  if (corners.size() < 3) return;
+  const auto triangles = cut_polygon(corners);
+  bool sound = triangles.size() + 2 == corners.size();
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t corner : triangle) sound &= corner < corners.size();
+  if (!sound) throw std::logic_error("a polygon was cut into other triangles than it has");
 }
 
 }  // namespace plisse::test

@@ -19,5 +19,8 @@ void read_as_scene(std::string_view bytes, const std::filesystem::path& folder);
 // A wrinkle field: PLY, or else the authors' amplitudes, phases and differences over a square of two
 // triangles, one after the other with a line "#" between.
 void read_as_field(std::string_view bytes, const std::filesystem::path& folder);
+// Not a file: the corners of a polygon for cut_polygon, three bytes each. Throws std::logic_error where its
+// triangles are not as many as a polygon has, or name corners that do not exist.
+void read_as_polygon(std::string_view bytes, const std::filesystem::path& folder);
 
 }  // namespace plisse::test
