@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -106,6 +107,32 @@ RenderKey render_key(const Instances& from, std::uint32_t v, std::uint32_t welde
            two(colour.b, colour.a)}};
 }
 
+// Render vertices in the order of their welded ones, the first of each before all that seams add: files that
+// have one kind of vertex only begin with the model's vertices in their order.
+void order_render_vertices(Surface& surface, std::vector<glm::dvec3>& normals) {
+  std::vector<bool> met(surface.vertex_count(), false), added;
+  for (const RenderVertex& vertex : surface.render_vertices) {
+    added.push_back(met[vertex.welded]);
+    met[vertex.welded] = true;
+  }
+  std::vector<std::uint32_t> order(added.size()), place(added.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(bool(added[a]), surface.render_vertices[a].welded) <
+           std::pair(bool(added[b]), surface.render_vertices[b].welded);
+  });
+  std::vector<RenderVertex> vertices;
+  std::vector<glm::dvec3> arranged;
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    vertices.push_back(surface.render_vertices[order[i]]);
+    arranged.push_back(normals[order[i]]);
+    place[order[i]] = i;
+  }
+  surface.render_vertices = std::move(vertices);
+  normals = std::move(arranged);
+  for (std::uint32_t& corner : surface.triangles) corner = place[corner];
+}
+
 // Surface with everything but `rest` (which is set to `bind`); `normals` gets each render vertex's file
 // normal in the space of bind, 0 where there is none.
 Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::dvec3>& normals) {
@@ -143,6 +170,7 @@ Surface build_surface(const Instances& from, const Weld& weld, std::vector<glm::
     }
     surface.triangles.push_back(become[v]);
   }
+  order_render_vertices(surface, normals);
   surface.parts = from.parts;
   build_adjacency(surface);
 

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "base/log.h"
@@ -123,6 +124,7 @@ class Gatherer {
         add_triangles(mesh, node);
       }
     }
+    order_as_file();
     spread_deltas();
     return std::move(result_);
   }
@@ -232,6 +234,7 @@ class Gatherer {
       result_.normal_uvs.push_back(mesh.normal_uvs.empty() ? result_.uvs.back() : mesh.normal_uvs[v]);
       result_.colours.push_back(mesh.colours.empty() ? glm::vec4{1} : mesh.colours[v]);
       result_.cache_index.push_back(cache_offsets_[id] + static_cast<std::uint32_t>(v));
+      if (!mesh.file_vertices.empty()) numbers_.push_back(mesh.file_vertices[v]);
       vertices.influences.push_back(influences_of(mesh, v, cached));
     }
     if (!cached && !mesh.targets.empty()) deltas_.push_back({&mesh, ids, linear, first_target});
@@ -268,6 +271,35 @@ class Gatherer {
         result_.triangles.push_back(ids_[mesh.triangles[t + corner]]);
   }
 
+  // Vertices in the order of their numbers in the file, where those are known, whatever the order in which
+  // its faces and groups use them: point caches and other programs count by it.
+  void order_as_file() {
+    const auto& number = numbers_;
+    if (number.size() != result_.vertices.positions.size() || std::is_sorted(number.begin(), number.end()))
+      return;
+    std::vector<std::uint32_t> order(number.size()), place(number.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return number[a] < number[b]; });
+    const auto arrange = [&](auto& items) {
+      auto arranged = items;
+      for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = items[order[i]];
+      items = std::move(arranged);
+    };
+    arrange(result_.vertices.positions);
+    arrange(result_.vertices.influences);
+    arrange(result_.normals);
+    arrange(result_.uvs);
+    arrange(result_.normal_uvs);
+    arrange(result_.colours);
+    arrange(result_.cache_index);
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    for (std::uint32_t& corner : result_.triangles) corner = place[corner];
+    for (Deltas& instance : deltas_)
+      for (std::uint32_t& id : instance.ids)
+        if (id < place.size()) id = place[id];
+  }
+
   // Deltas are stored target after target for all vertices, so they are arranged when the count is known.
   void spread_deltas() {
     const std::size_t count = result_.vertices.positions.size();
@@ -295,7 +327,8 @@ class Gatherer {
   std::vector<std::uint32_t> cache_offsets_;
   Instances result_;
   Placed placed_;
-  std::vector<std::uint32_t> ids_;  // mesh vertex → gathered vertex, of the current instance
+  std::vector<std::uint32_t> numbers_;  // in the file, of each gathered vertex where all are known
+  std::vector<std::uint32_t> ids_;      // mesh vertex → gathered vertex, of the current instance
   std::vector<Deltas> deltas_;
 };
 

@@ -26,7 +26,8 @@ struct MorphSource {
   double rest_weight = 0;  // in the rest pose: the default with a skin, else the first frame's
 };
 
-// Vertices before welding, of all instances one after the other.
+// Vertices before welding: in the order of their numbers in the file where those are known (OBJ, PLY,
+// panels), else of all instances one after the other.
 struct Instances {
   WeldInput vertices;               // in the space of Surface::bind
   std::vector<glm::dvec3> normals;  // unit, in the space of bind; 0 where the file has none

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "io/import.h"
 #include "support/errors.h"
+#include "support/files.h"
 
 namespace plisse {
 namespace {
@@ -316,6 +317,38 @@ TEST(Animation, BoundsHoldEveryFrame) {
   EXPECT_NEAR(bounds.low.x, -2, rounding);
   EXPECT_NEAR(bounds.high.y, 2 + std::sqrt(5.0), 1e-2);  // between two of 25 frames
   EXPECT_NEAR(bounds.low.y, 0, rounding);
+}
+
+// Two groups whose faces use the vertices backwards and in turn; the last vertex falls together with another.
+TEST(Animation, KeepsTheOrderOfTheFile) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "a.obj",
+                   "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 1 0 0\nvt 0 0\nvt 1 0\n"
+                   "g right\nf 6/1 5/2 3/1\nf 3/1 5/1 7/1\ng left\nf 5/1 4/1 1/1\nf 2/1 5/2 1/2\n");
+  const io::Model model = io::import_model(folder / "a.obj");
+  const scene::Animation animation(model, {});
+  const std::vector<glm::dvec3> expected{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  EXPECT_EQ(animation.surface().bind, expected);
+  // What is drawn begins with them, too; what seams of uv add comes after.
+  const auto& drawn = animation.surface().render_vertices;
+  ASSERT_GT(drawn.size(), expected.size());
+  for (std::uint32_t v = 0; v < expected.size(); ++v) EXPECT_EQ(drawn[v].welded, v);
+  // The triangles are those of the file.
+  std::vector<glm::dvec3> corners;
+  for (const std::uint32_t corner : animation.surface().triangles)
+    corners.push_back(animation.surface().bind[drawn[corner].welded]);
+  EXPECT_EQ(corners, (std::vector<glm::dvec3>{{2, 1, 0},
+                                              {1, 1, 0},
+                                              {2, 0, 0},
+                                              {2, 0, 0},
+                                              {1, 1, 0},
+                                              {1, 0, 0},
+                                              {1, 1, 0},
+                                              {0, 1, 0},
+                                              {0, 0, 0},
+                                              {1, 0, 0},
+                                              {1, 1, 0},
+                                              {0, 0, 0}}));
 }
 
 }  // namespace
