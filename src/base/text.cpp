@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include <cstdint>
+
 namespace plisse {
 namespace {
 constexpr std::string_view blanks = " \t\r\f";
@@ -41,6 +43,51 @@ std::string wrapped(std::string_view text, std::size_t width) {
 std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::string utf8_of_file(std::string bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  const auto byte = [&](std::size_t at) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at]));
+  };
+  if (bytes.size() < 2) return bytes;
+  const bool little = (byte(0) == 0xFF && byte(1) == 0xFE) || (byte(0) != 0 && byte(1) == 0);
+  const bool big = (byte(0) == 0xFE && byte(1) == 0xFF) || (byte(0) == 0 && byte(1) != 0);
+  if (!little && !big) return bytes;
+  const auto unit = [&](std::size_t at) {
+    return little ? byte(at) | byte(at + 1) << 8U : byte(at) << 8U | byte(at + 1);
+  };
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for (std::size_t at = unit(0) == 0xFEFF ? 2 : 0; at + 1 < bytes.size(); at += 2) {
+    std::uint32_t letter = unit(at);
+    if (letter >= 0xD800 && letter < 0xE000) {
+      const std::uint32_t second = letter < 0xDC00 && at + 3 < bytes.size() ? unit(at + 2) : 0;
+      if (second >= 0xDC00 && second < 0xE000) {
+        letter = 0x10000 + ((letter - 0xD800) << 10U) + (second - 0xDC00);
+        at += 2;
+      } else {
+        letter = 0xFFFD;
+      }
+    }
+    const auto put = [&](std::uint32_t value) { text += static_cast<char>(value); };
+    if (letter < 0x80) {
+      put(letter);
+    } else if (letter < 0x800) {
+      put(0xC0 | letter >> 6U);
+      put(0x80 | (letter & 0x3FU));
+    } else if (letter < 0x10000) {
+      put(0xE0 | letter >> 12U);
+      put(0x80 | (letter >> 6U & 0x3FU));
+      put(0x80 | (letter & 0x3FU));
+    } else {
+      put(0xF0 | letter >> 18U);
+      put(0x80 | (letter >> 12U & 0x3FU));
+      put(0x80 | (letter >> 6U & 0x3FU));
+      put(0x80 | (letter & 0x3FU));
+    }
+  }
   return text;
 }
 

@@ -22,6 +22,10 @@ std::string wrapped(std::string_view text, std::size_t width);
 // ASCII letters only: for endings of files.
 std::string lower_case(std::string text);
 
+// The bytes of a text file as UTF-8 without a byte order mark: UTF-16 of either byte order, known by its mark
+// or by the zeros beside its first letter, is converted (halves of pairs that stand alone become U+FFFD).
+std::string utf8_of_file(std::string bytes);
+
 // Calls visit(line, number) for every line of `text`, without its line feed; numbers count from 1.
 template <typename Visit>
 void for_each_line(std::string_view text, const Visit& visit) {

@@ -2,9 +2,11 @@
 #include "io/import_obj.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
-#include <sstream>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -13,55 +15,125 @@
 #include "io/import_colour.h"
 #include "io/import_place.h"
 #include "io/import_texture.h"
+#include "io/mtl.h"
 #include "io/obj.h"
 
 namespace plisse::io {
 namespace {
 
-// Kd (sRGB, as modelling programs write it), d or Tr, map_Kd. A library that is missing costs colours, not
-// the model.
-void read_materials(const std::filesystem::path& obj, const std::string& library, Model& model,
-                    std::map<std::string, int>& ids) {
-  const std::filesystem::path path = find_texture(obj, library);
-  if (path.empty()) {
-    log::warn(fmt::format("{}: material library '{}' not found; going on without", obj.string(), library));
-    return;
-  }
-  Material* material = nullptr;
-  for_each_line(read_obj_text(path), [&](std::string_view line, std::size_t) {
-    std::istringstream words{std::string(line)};
-    std::string key;
-    words >> key;
-    float value = 1;
-    if (key == "newmtl") {
-      const std::string name(trimmed(line.substr(line.find("newmtl") + 6)));
-      ids.emplace(name, static_cast<int>(model.materials.size()));
-      material = &model.materials.emplace_back();
-      material->name = name;
-    } else if (material == nullptr) {
-      return;
-    } else if (glm::vec3 colour{1}; key == "Kd" && words >> colour.r >> colour.g >> colour.b) {
-      if (material->base_colour_texture < 0)
-        material->base_colour = {linear(colour), material->base_colour.a};
-    } else if ((key == "d" || key == "Tr") && words >> value) {
-      const float alpha = key == "d" ? value : 1 - value;
-      // Some writers use 0 for Tr and d alike; an invisible material is not what they mean.
-      material->base_colour.a = alpha > 0 && alpha <= 1 ? alpha : 1;
-      material->alpha = material->base_colour.a < 1 ? Material::Alpha::blend : Material::Alpha::opaque;
-    } else if (key == "map_Kd") {
-      // Options stand before the name; names with blanks are taken when there are no options.
-      std::string name(trimmed(line.substr(line.find("map_Kd") + 6)));
-      if (name.starts_with('-')) name = name.substr(name.find_last_of(" \t") + 1);
-      material->base_colour_texture = load_texture_file(path, name, Texture::Use::colour, model);
-      if (material->base_colour_texture >= 0) material->base_colour = {1, 1, 1, material->base_colour.a};
+// A material and where its pictures are looked up.
+struct Look {
+  int id = -1;  // index into Model::materials
+  glm::vec2 scale{1}, offset{0};
+};
+
+// The files that a line of `mtllib` names: one whose name may have blanks, or several. A library that is
+// missing costs colours, not the model.
+std::vector<std::filesystem::path> library_files(const std::filesystem::path& obj, const std::string& line) {
+  std::vector<std::filesystem::path> files;
+  const std::vector<std::string_view> words = words_of(line);
+  for (std::size_t i = 0; i < words.size();) {
+    std::filesystem::path found;
+    std::size_t end = words.size();
+    for (; end > i && found.empty(); --end) {
+      std::string name(words[i].data(), words[end - 1].data() + words[end - 1].size());
+      std::erase(name, '"');
+      found = find_texture(obj, name);
     }
-  });
+    if (found.empty())
+      log::warn(fmt::format("{}: material library '{}' not found; going on without", obj.string(), words[i]));
+    else
+      files.push_back(found);
+    i = found.empty() ? i + 1 : end + 1;
+  }
+  return files;
+}
+
+// How much of a picture is there: its alpha where it has some, else its grey.
+std::uint8_t opacity_at(const Image& image, bool by_alpha, std::size_t texel) {
+  const std::uint8_t* c = &image.rgba[4 * texel];
+  if (by_alpha) return c[3];
+  return static_cast<std::uint8_t>((c[0] * 54 + c[1] * 183 + c[2] * 19 + 128) / 256);  // ITU-R BT.709
+}
+
+// map_Kd and map_d as one picture with alpha, as large as the larger one; −1 without both. Sets how the
+// material's alpha is used where there is a map_d.
+int load_pictures(const std::filesystem::path& library, const MtlMaterial& source, Material& material,
+                  Model& model) {
+  const auto& [name, kd, opacity, picture, opacity_picture] = source;
+  if (!opacity_picture)
+    return picture ? load_texture_file(library, picture->name, Texture::Use::colour, model) : -1;
+  Model loaded;
+  const int mask = load_texture_file(library, opacity_picture->name, Texture::Use::colour, loaded);
+  if (mask < 0) return picture ? load_texture_file(library, picture->name, Texture::Use::colour, model) : -1;
+  const Image alpha = loaded.textures[static_cast<std::size_t>(mask)].image;
+  Texture result{loaded.textures[static_cast<std::size_t>(mask)].name + " as opacity",
+                 {1, 1, {255, 255, 255, 255}},
+                 Texture::Use::colour};
+  if (picture) {
+    const int id = load_texture_file(library, picture->name, Texture::Use::colour, loaded);
+    if (id >= 0) {
+      result.image = loaded.textures[static_cast<std::size_t>(id)].image;
+      result.name += " of " + loaded.textures[static_cast<std::size_t>(id)].name;
+    }
+  }
+  const Image colour = result.image;
+  Image& image = result.image;
+  image.width = std::max(colour.width, alpha.width);
+  image.height = std::max(colour.height, alpha.height);
+  image.rgba.clear();
+  bool by_alpha = false, partly = false;
+  for (std::size_t i = 3; i < alpha.rgba.size(); i += 4) by_alpha |= alpha.rgba[i] < 255;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const auto texel = [&](const Image& of) {
+        return static_cast<std::size_t>(std::int64_t{y} * of.height / image.height) *
+                   static_cast<std::size_t>(of.width) +
+               static_cast<std::size_t>(std::int64_t{x} * of.width / image.width);
+      };
+      const std::uint8_t* c = &colour.rgba[4 * texel(colour)];
+      const std::uint8_t a = opacity_at(alpha, by_alpha, texel(alpha));
+      partly |= a > 0 && a < 255;
+      image.rgba.insert(image.rgba.end(), {c[0], c[1], c[2], a});
+    }
+  // Holes with sharp edges need no order of what lies behind one another.
+  material.alpha = partly || material.base_colour.a < 1 ? Material::Alpha::blend : Material::Alpha::mask;
+  for (std::size_t i = 0; i < model.textures.size(); ++i)
+    if (model.textures[i].name == result.name) return static_cast<int>(i);
+  model.textures.push_back(std::move(result));
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+// Kd is sRGB, as modelling programs write it; a map_Kd takes its place.
+void read_materials(const std::filesystem::path& library, Model& model, std::map<std::string, Look>& looks) {
+  for (const MtlMaterial& source : read_mtl(library)) {
+    const auto [entry, fresh] = looks.emplace(source.name, Look{static_cast<int>(model.materials.size())});
+    if (!fresh) continue;  // the first of a name counts
+    Material material;
+    material.name = source.name;
+    if (source.colour) material.base_colour = glm::vec4(linear(*source.colour), 1);
+    material.base_colour.a = source.opacity;
+    material.alpha = source.opacity < 1 ? Material::Alpha::blend : Material::Alpha::opaque;
+    material.base_colour_texture = load_pictures(library, source, material, model);
+    if (source.picture && material.base_colour_texture >= 0)
+      material.base_colour = {1, 1, 1, material.base_colour.a};
+    const auto& place = source.picture ? source.picture : source.opacity_picture;
+    if (place) entry->second.scale = place->scale, entry->second.offset = place->offset;
+    if (source.picture && source.opacity_picture &&
+        (source.picture->scale != source.opacity_picture->scale ||
+         source.picture->offset != source.opacity_picture->offset))
+      log::warn(
+          fmt::format("{}: material '{}' has other texture options in map_d than in map_Kd; those of map_Kd "
+                      "are used for both",
+                      library.string(), source.name));
+    model.materials.push_back(std::move(material));
+  }
 }
 
 }  // namespace
 
 Model import_obj(const std::filesystem::path& path, const ImportOptions& options) {
-  const ObjFile file = read_obj(path, {.uvs_and_normals = true, .polygons = ObjWanted::Polygons::cut});
+  const ObjFile file = read_obj(path, {.looks = true, .polygons = ObjWanted::Polygons::cut});
   Model model;
   model.file_vertex_count = file.positions.size();
   model.path = file.path;
@@ -70,19 +142,31 @@ Model import_obj(const std::filesystem::path& path, const ImportOptions& options
   const glm::dmat4 world = file_to_world(model.up, model.metres_per_unit);
   model.nodes.emplace_back().name = file.path.stem().string();
 
-  std::map<std::string, int> material_ids;
-  for (const std::string& library : file.libraries) read_materials(file.path, library, model, material_ids);
-  const auto material_id = [&](const std::string& name) {
-    if (name.empty()) return -1;
-    const auto [entry, added] = material_ids.emplace(name, static_cast<int>(model.materials.size()));
-    if (added) model.materials.emplace_back().name = name;
+  if (!file.left_out.empty())
+    log::warn(fmt::format("{}: {} are not read; only its faces are", file.path.string(),
+                          fmt::join(file.left_out, ", ")));
+  std::map<std::string, Look> looks;
+  for (const std::string& line : file.libraries)
+    for (const auto& library : library_files(file.path, line)) read_materials(library, model, looks);
+  const bool has_libraries = !looks.empty();
+  const auto look_of = [&](const std::string& name) {
+    if (name.empty()) return Look{};
+    const auto [entry, added] = looks.emplace(name, Look{static_cast<int>(model.materials.size())});
+    if (!added) return entry->second;
+    model.materials.emplace_back().name = name;
+    if (has_libraries)
+      log::warn(fmt::format("{}: no library has the material '{}'; it is white", file.path.string(), name));
     return entry->second;
   };
+  // As programs show them, so sRGB; white ones say nothing.
+  const bool has_colours = std::any_of(file.colours.begin(), file.colours.end(),
+                                       [](const glm::vec4& colour) { return colour != glm::vec4(1); });
 
   // Runs of one name and material are one mesh, in the order of their first triangle.
   std::map<std::pair<std::string, std::string>, std::size_t> mesh_ids;
   using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
   std::vector<std::map<Key, std::uint32_t>> vertex_ids;
+  std::vector<Look> mesh_looks;
   for (std::size_t r = 0; r < file.runs.size(); ++r) {
     const ObjFile::Run& run = file.runs[r];
     const std::size_t end =
@@ -93,7 +177,8 @@ Model import_obj(const std::filesystem::path& path, const ImportOptions& options
     if (added) {
       Mesh& mesh = model.meshes.emplace_back();
       mesh.name = run.name.empty() ? file.path.stem().string() : run.name;
-      mesh.material = material_id(run.material);
+      mesh_looks.push_back(look_of(run.material));
+      mesh.material = mesh_looks.back().id;
       vertex_ids.emplace_back();
       model.nodes[0].meshes.push_back(static_cast<int>(id));
     }
@@ -107,7 +192,14 @@ Model import_obj(const std::filesystem::path& path, const ImportOptions& options
               world * glm::dvec4(file.positions[static_cast<std::size_t>(corner.position)], 1));
           mesh.file_vertices.push_back(static_cast<std::uint32_t>(corner.position));
           // A corner without uv or normal gets a blank, and the mesh loses the array where all are blank.
-          mesh.uvs.push_back(corner.uv < 0 ? glm::vec2{0} : file.uvs[static_cast<std::size_t>(corner.uv)]);
+          mesh.uvs.push_back(corner.uv < 0
+                                 ? glm::vec2{0}
+                                 : file.uvs[static_cast<std::size_t>(corner.uv)] * mesh_looks[id].scale +
+                                       mesh_looks[id].offset);
+          if (has_colours) {
+            const glm::vec4 colour = file.colours[static_cast<std::size_t>(corner.position)];
+            mesh.colours.emplace_back(linear(glm::vec3(colour)), glm::clamp(colour.a, 0.0F, 1.0F));
+          }
           const glm::dvec3 normal = corner.normal < 0
                                         ? glm::dvec3{0}
                                         : glm::dvec3(file.normals[static_cast<std::size_t>(corner.normal)]);

@@ -10,8 +10,10 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "base/log.h"
+#include "base/text.h"
 #include "io/inside_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -53,6 +55,36 @@ void warn_outside(const std::filesystem::path& model, const std::filesystem::pat
                   model.string(), file.string()));
 }
 
+namespace {
+
+// The file of this name below a folder where capitals count as small letters, as on the systems that many
+// models come from; relative to the folder. Empty where there is none, and for names that lead out of the
+// folder.
+std::filesystem::path in_any_case(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  namespace fs = std::filesystem;
+  if (name.is_absolute() || name.string().find('\0') != std::string::npos) return {};
+  fs::path found;
+  for (const fs::path& part : name) {
+    if (part == "..") return {};
+    const std::string wanted = lower_case(part.string());
+    std::vector<std::string> alike;
+    std::error_code error;
+    for (fs::directory_iterator
+             entry(folder.empty() && found.empty() ? fs::path(".") : folder / found, error),
+         end;
+         !error && entry != end; entry.increment(error))
+      if (const std::string here = entry->path().filename().string(); lower_case(here) == wanted)
+        alike.push_back(here);
+    if (part == ".") alike = {"."};
+    if (alike.empty()) return {};
+    found /= *std::min_element(alike.begin(), alike.end());  // in whatever order the folder is read
+  }
+  std::error_code error;
+  return fs::is_regular_file(folder / found, error) ? found : fs::path{};
+}
+
+}  // namespace
+
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name) {
   namespace fs = std::filesystem;
   std::string decoded = percent_decoded(name);
@@ -66,6 +98,10 @@ std::filesystem::path find_texture(const std::filesystem::path& model, const std
     if (!fs::is_regular_file(folder / candidate, error)) continue;
     if (!inside_folder(folder, candidate.string()).empty()) return folder / candidate;
     warn_outside(model, candidate);
+  }
+  for (const fs::path& candidate : candidates) {
+    const fs::path found = in_any_case(folder, candidate);
+    if (!found.empty() && !inside_folder(folder, found.string()).empty()) return folder / found;
   }
   return {};
 }

@@ -18,8 +18,9 @@ std::optional<Image> decode_image(std::span<const std::byte> bytes, std::string&
 void warn_outside(const std::filesystem::path& model, const std::filesystem::path& file);
 
 // Finds a texture that a model file names, although the path may be another machine's: as given, with / for
-// \ and %20 decoded, relative to the model's folder, then by its bare name there and in textures/. Empty if
-// not found; a file outside the folder is ignored with a warning.
+// \ and %20 decoded, relative to the model's folder, then by its bare name there and in textures/; then the
+// same with capitals and small letters alike. Empty if not found; a file outside the folder is ignored with a
+// warning.
 std::filesystem::path find_texture(const std::filesystem::path& model, const std::string& name);
 
 // Adds the texture to model.textures, or finds it there under the same name and for the same use.

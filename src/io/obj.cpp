@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -26,6 +27,7 @@ class Reader {
       read_line(line);
       continued_ += static_cast<std::size_t>(std::count(line.begin(), line.end(), '\f'));
     });
+    finish_colours();
     return std::move(file_);
   }
 
@@ -39,10 +41,11 @@ class Reader {
     if (key == "v") {
       const glm::dvec3 position{number(rest), number(rest), number(rest)};
       file_.positions.push_back(position);
-    } else if (key == "vt" && wanted_.uvs_and_normals) {
-      const glm::dvec2 uv{number(rest), number(rest)};
-      file_.uvs.emplace_back(uv);
-    } else if (key == "vn" && wanted_.uvs_and_normals) {
+      if (!rest.empty() && wanted_.looks) read_colour(rest);
+    } else if (key == "vt" && wanted_.looks) {
+      const double u = number(rest);
+      file_.uvs.emplace_back(u, trimmed(rest).empty() || trimmed(rest).starts_with('#') ? 0 : number(rest));
+    } else if (key == "vn" && wanted_.looks) {
       const glm::dvec3 normal{number(rest), number(rest), number(rest)};
       file_.normals.emplace_back(normal);
     } else if (key == "f") {
@@ -58,7 +61,51 @@ class Reader {
       start_run();
     } else if (key == "mtllib") {
       file_.libraries.emplace_back(trimmed(rest));
+    } else if (wanted_.looks) {
+      if (key == "#MRGB") read_painted(trimmed(rest));
+      if (key == "p") file_.left_out.insert("points");
+      if (key == "l") file_.left_out.insert("lines");
+      if (key == "curv" || key == "curv2" || key == "surf")
+        file_.left_out.insert("free-form curves and surfaces");
     }
+  }
+
+  // Red, green, blue after a position; a fourth number is the opacity, a single one a weight.
+  void read_colour(std::string_view rest) {
+    std::array<double, 4> values{1, 1, 1, 1};
+    std::size_t count = 0;
+    for (; count < values.size(); ++count) {
+      const auto value = parse_number(next_word(rest));
+      if (!value || !std::isfinite(*value)) break;
+      values[count] = *value;
+    }
+    if (count < 3) return;
+    if (count == 3) values[3] = 1;
+    file_.colours.resize(file_.positions.size() - 1, glm::vec4(1));
+    file_.colours.emplace_back(glm::dvec4(values[0], values[1], values[2], values[3]));
+  }
+
+  // ZBrush's colours of the vertices in turn, eight hexadecimal digits each: mask, red, green, blue.
+  void read_painted(std::string_view digits) {
+    for (; digits.size() >= 8; digits.remove_prefix(8)) {
+      std::uint32_t value = 0;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + 8, value, 16);
+      if (error != std::errc{} || end != digits.data() + 8) return;
+      painted_.emplace_back(value >> 16U & 0xFFU, value >> 8U & 0xFFU, value & 0xFFU, 255U);
+    }
+  }
+
+  // One colour a vertex, from 0 to 1. Some programs write them from 0 to 255.
+  void finish_colours() {
+    if (file_.colours.empty() && painted_.size() == file_.positions.size())
+      file_.colours = std::move(painted_);
+    if (file_.colours.empty()) return;
+    float most = 0;
+    for (const glm::vec4& colour : file_.colours) most = std::max({most, colour.r, colour.g, colour.b});
+    if (most > 1.5F)
+      for (glm::vec4& colour : file_.colours)
+        colour = {glm::vec3(colour) / 255.0F, colour.a > 1 ? colour.a / 255 : colour.a};
+    file_.colours.resize(file_.positions.size(), glm::vec4(1));
   }
 
   // A run that nothing belongs to is not kept.
@@ -100,7 +147,7 @@ class Reader {
       }
       if (parts[0].empty()) fail("a corner names no vertex");
       Corner& corner = corners_.emplace_back(Corner{index(parts[0], file_.positions.size(), "vertex")});
-      if (!wanted_.uvs_and_normals) continue;
+      if (!wanted_.looks) continue;
       if (!parts[1].empty()) corner.uv = index(parts[1], file_.uvs.size(), "texture vertex");
       if (!parts[2].empty()) corner.normal = index(parts[2], file_.normals.size(), "normal");
     }
@@ -139,6 +186,7 @@ class Reader {
   std::size_t line_ = 0, continued_ = 0;
   std::vector<Corner> corners_;
   std::vector<glm::dvec3> outline_;
+  std::vector<glm::vec4> painted_;
 };
 
 // With blanks as _: names end at white space.
@@ -165,10 +213,14 @@ ObjFile read_obj(const std::filesystem::path& path, const ObjWanted& wanted) {
 }
 
 std::string read_obj_text(const std::filesystem::path& path) {
-  std::string text = read_whole_text(path);
-  for (std::size_t i = text.find("\\\n"); i != std::string::npos; i = text.find("\\\n", i)) {
+  std::string text = utf8_of_file(read_whole_text(path));
+  // Lines of old Macintosh files end with a carriage return alone.
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  for (std::size_t i = text.find('\\'); i != std::string::npos; i = text.find('\\', i + 1)) {
+    const std::size_t end = text.find_first_not_of(" \t\r", i + 1);
+    if (end == std::string::npos || text[end] != '\n') continue;
     text[i] = ' ';
-    text[i + 1] = '\f';
+    text[end] = '\f';
   }
   return text;
 }

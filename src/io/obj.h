@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 namespace plisse::io {
 
 // The contents of the file: v, f, o, g, usemtl, mtllib, and vt, vn, l if wanted; other lines are ignored.
+// Colours stand after the positions, or in ZBrush's comments (#MRGB).
 struct ObjFile {
   struct Corner {
     std::int32_t position = -1, uv = -1, normal = -1;  // from 0; −1 not given
@@ -33,14 +35,17 @@ struct ObjFile {
   std::vector<std::array<Corner, 3>> triangles;     // polygons as `ObjWanted` says
   std::vector<std::array<std::uint32_t, 2>> lines;  // pieces of line elements: numbers of positions
   std::vector<Run> runs;
-  std::vector<std::string> libraries;  // mtllib
+  std::vector<std::string> libraries;  // mtllib, as it stands: one name, or several
+  std::vector<glm::vec4> colours;      // one per position, 0…1, or empty
+  std::set<std::string> left_out;      // kinds of elements that the file has and nobody reads: "points", …
 
   std::vector<std::array<std::uint32_t, 3>> faces() const;  // the positions that the triangles join
 };
 
 // The data to read besides positions and faces. Other data is ignored, even if it is damaged.
 struct ObjWanted {
-  bool uvs_and_normals = false, lines = false;
+  bool looks = false;  // uvs, normals, colours, and what is left out
+  bool lines = false;
   // Faces of more than three corners: `cut` inside themselves by where their corners lie
   // (mesh/cut_polygon.h); fans from their first corner, which depend on the file's numbers only; or an error.
   enum class Polygons { fans, cut, refused } polygons = Polygons::fans;
@@ -50,9 +55,9 @@ struct ObjWanted {
 // than three corners, lines with fewer than two, and indices out of range.
 ObjFile read_obj(const std::filesystem::path& path, const ObjWanted& wanted = {});
 
-// The text of an OBJ or MTL file, where a backslash at the end of a line continues it: such a line is one
-// with the next, and the line numbers of the file are kept (form feeds stand for the ends of lines that go
-// on).
+// The text of an OBJ or MTL file in UTF-8 (utf8_of_file), where a backslash at the end of a line continues
+// it: such a line is one with the next, and the line numbers of the file are kept (form feeds stand for the
+// ends of lines that go on).
 std::string read_obj_text(const std::filesystem::path& path);
 
 // An OBJ file in the order of the calls; indices count from 0, −1 is none, as in ObjFile.

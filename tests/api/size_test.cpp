@@ -47,11 +47,11 @@ TEST(PublicSize, PanelsAndGarmentAreThoseOfTheFiles) {
     EXPECT_EQ(panel.edges_within, report.panels[p].quality.edges_within);
     EXPECT_EQ(panel.least_angle, report.panels[p].quality.least_angle);
     EXPECT_EQ(panel.edge_length.size(), panel.mesh.positions.size());
-    expect_equal(panel.mesh, io::read_obj(folder / (panel.name + ".obj"), {.uvs_and_normals = true}));
+    expect_equal(panel.mesh, io::read_obj(folder / (panel.name + ".obj"), {.looks = true}));
   }
   ASSERT_TRUE(found.garment);
   EXPECT_EQ(found.garment->parts.size(), found.panels.size());
-  expect_equal(*found.garment, io::read_obj(folder / "garment.obj", {.uvs_and_normals = true}));
+  expect_equal(*found.garment, io::read_obj(folder / "garment.obj", {.looks = true}));
 }
 
 TEST(PublicSize, APanelInMemoryIsMeshedAsInAFile) {

@@ -30,7 +30,7 @@ TEST(Size, EveryExampleKeepsWhatIsPromised) {
     }
 
     // The files hold what the report counts.
-    const io::ObjFile obj = io::read_obj(folder / (panel.name + ".obj"), {.uvs_and_normals = true});
+    const io::ObjFile obj = io::read_obj(folder / (panel.name + ".obj"), {.looks = true});
     EXPECT_EQ(obj.positions.size(), panel.vertices);
     EXPECT_EQ(obj.triangles.size(), panel.triangles);
     for (std::size_t i = 0; i < obj.positions.size();
