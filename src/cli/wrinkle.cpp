@@ -53,6 +53,10 @@ struct Arguments {
         "--follow", follow, "LENGTH",
         described("Of a model: what is shorter than this is handed to the waves; 0: nothing. Default: 8 mean "
                   "edges of the rest shape for simulations and caches, 4 for skins and morphs"));
+    options.add(
+        "--tension-limit", tension_limit, "X",
+        described("Of a model: stretch that counts as the cloth's tension, as twice the Green strain; "
+                  "what a rig stretches beyond is none. Default .05; 0: all of it"));
     options.add("--fabric", fabric, "B,E|NAME", "Of a model: its fabric, as for 'plisse size'");
     options.add(
         "--wavelength", wavelength, "LENGTH",
@@ -130,7 +134,8 @@ struct Arguments {
   CacheArguments solved;
   std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
-                                    iterations = "500", cost, follow, fabric, wavelength, rest, clip;
+                                    iterations = "500", cost, follow, tension_limit, fabric, wavelength, rest,
+                                    clip;
   std::vector<std::string> without, evaluate, only, exclude;
   bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false, local_law = false;
 };
@@ -353,6 +358,8 @@ cloth::FollowRequest follow_request_of(const Arguments& arguments) {
   if (!arguments.exclude.empty()) scene.wrinkles.exclude = arguments.exclude;
   request.frames = arguments.frames;
   if (!arguments.follow.empty()) request.follow = length_option("--follow", arguments.follow, true);
+  if (!arguments.tension_limit.empty())
+    request.tension_limit = number_in("--tension-limit", arguments.tension_limit, 0, 1e6);
   if (!arguments.wavelength.empty())
     request.wavelength = length_option("--wavelength", arguments.wavelength, false);
   if (!arguments.fabric.empty()) {
@@ -420,10 +427,10 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
     if (!frame.converged) log::warn(fmt::format("frame {}: its base surface did not converge", frame.frame));
     const auto path =
         std::filesystem::path(config::numbered_path((folder / "base_####.ply").string(), frame.frame));
-    cloth::write_base(
-        path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
-        first.surface.topology.faces, first.surface.rest, first.material, first.held, followed.bases[n],
-        frame.converged ? "" : "no step lowers its energy any more, or too many were needed", first.chords);
+    request.each.scene.surface.positions = followed.bases[n];
+    cloth::write_base(path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
+                      request.each.scene,
+                      frame.converged ? "" : "no step lowers its energy any more, or too many were needed");
     outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
   }
   if (followed.picked.size() < followed.frames.size())
@@ -543,6 +550,7 @@ int run_wrinkle(Arguments& arguments) {
   if (!arguments.cost.empty()) return run_costs(arguments, request);
   if (is_model(arguments)) return run_model(arguments, std::move(request));
   refuse_without_effect({{"--follow", !arguments.follow.empty()},
+                         {"--tension-limit", !arguments.tension_limit.empty()},
                          {"--fabric", !arguments.fabric.empty()},
                          {"--wavelength", !arguments.wavelength.empty()},
                          {"--rest", !arguments.rest.empty()},

@@ -9,25 +9,26 @@
 
 namespace plisse::cloth {
 
-void write_base(const std::filesystem::path& path, const std::string& title,
-                const std::vector<shell::Face>& faces, const std::vector<shell::RestFace>& rest,
-                const shell::Material& material, const std::vector<bool>& held,
-                const shell::Positions& positions, const std::string& stopped, bool chords) {
+void write_base(const std::filesystem::path& path, const std::string& title, const WrinkleScene& base,
+                const std::string& stopped) {
   using io::PlyProperty;
+  const shell::Material& material = base.material;
+  const std::vector<shell::Face>& faces = base.surface.topology.faces;
   io::Ply ply;
   ply.comments = {title, fmt::format("young {}", material.young), fmt::format("poisson {}", material.poisson),
                   fmt::format("thickness {}", material.thickness),
                   fmt::format("density {}", material.density)};
-  if (!chords) ply.comments.push_back("chords none");
+  if (!base.chords) ply.comments.push_back("chords none");
+  if (base.tension_limit > 0) ply.comments.push_back(fmt::format("tension_limit {}", base.tension_limit));
   if (!stopped.empty()) ply.comments.push_back("not converged: " + stopped);
-  io::PlyElement vertices{"vertex", static_cast<std::size_t>(positions.cols())},
+  io::PlyElement vertices{"vertex", static_cast<std::size_t>(base.surface.positions.cols())},
       triangles{"face", faces.size()};
-  vertices.add_vectors("", PlyProperty::Type::float64, points_to_glm(positions));
+  vertices.add_vectors("", PlyProperty::Type::float64, points_to_glm(base.surface.positions));
   PlyProperty& holds = vertices.properties.emplace_back(PlyProperty{"held", PlyProperty::Type::uint8});
-  for (const bool is_held : held) holds.values.push_back(is_held ? 1 : 0);
+  for (const bool is_held : base.held) holds.values.push_back(is_held ? 1 : 0);
   std::vector<double> corners, flat;
   for (const shell::Face& face : faces) corners.insert(corners.end(), face.begin(), face.end());
-  for (const shell::RestFace& face : rest)
+  for (const shell::RestFace& face : base.surface.rest)
     flat.insert(flat.end(), {0, 0, face.edges(0, 0), face.edges(1, 0), face.edges(0, 1), face.edges(1, 1)});
   triangles.add_lists("vertex_indices", PlyProperty::Type::int32, 3, std::move(corners));
   triangles.add_lists("rest", PlyProperty::Type::float64, 6, std::move(flat));

@@ -34,8 +34,8 @@ void members(auto& a, Is<shell::Topology> auto& value) {
   a(vertex_count, faces);
 }
 void members(auto& a, Is<shell::Shell> auto& value) {
-  auto& [topology, rest, material, stretching, bending, residual, rest_forms] = value;
-  a(topology, rest, material, stretching, bending, residual, rest_forms);
+  auto& [topology, rest, material, stretching, bending, residual, tension_limit, rest_forms] = value;
+  a(topology, rest, material, stretching, bending, residual, tension_limit, rest_forms);
 }
 void members(auto& a, Is<shell::Conditions::Mirror> auto& value) {
   auto& [axis, at] = value;

@@ -129,11 +129,14 @@ shell::Shell shell_of(const DrapeScene& scene) {
 void write_base(const std::filesystem::path& path, const DrapeScene& scene, const DrapeFrame& frame,
                 const Positions& positions) {
   const shell::Conditions conditions = scene.conditions(frame.load);
-  std::vector<bool> held;
-  for (Eigen::Index v = 0; v < positions.cols(); ++v) held.push_back(conditions.held.col(v).all());
-  write_base(path, fmt::format("plisse drape {} load {}", scene.name, frame.load), scene.faces,
-             shell::rest_faces(scene.rest, scene.rest_faces), scene.material, held, positions,
-             frame.equilibrium.converged ? "" : frame.equilibrium.reason, scene.chords);
+  WrinkleScene base;
+  base.surface = {shell::build_topology(scene.faces, static_cast<std::size_t>(positions.cols())),
+                  shell::rest_faces(scene.rest, scene.rest_faces), positions};
+  base.material = scene.material;
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) base.held.push_back(conditions.held.col(v).all());
+  base.chords = scene.chords;
+  write_base(path, fmt::format("plisse drape {} load {}", scene.name, frame.load), base,
+             frame.equilibrium.converged ? "" : frame.equilibrium.reason);
 }
 
 Positions perturbed(const DrapeScene& scene, const shell::Loads& loads, const shell::Conditions& conditions,

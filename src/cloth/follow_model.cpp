@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -101,6 +102,7 @@ Cloth selected(const Surface& surface) {
 struct Piece {
   std::vector<std::uint32_t> vertices;
   double edge = 0;  // mean rest edge, m
+  Positions rest;   // where its vertices are at rest, m
   std::optional<shell::Follower> follower;
 };
 
@@ -138,6 +140,7 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
       places.col(static_cast<Eigen::Index>(v)) = rest_positions.col(piece.vertices[v]);
     shell::FollowSettings settings;
     settings.wavelength = request.follow.value_or(edges * piece.edge);
+    settings.tension_limit = request.tension_limit;
     if (request.material) settings.poisson = request.material->poisson;
     if (faces[p].size() > most) {
       most = faces[p].size();
@@ -146,8 +149,19 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
     const std::size_t vertex_count = piece.vertices.size();
     piece.follower.emplace(shell::build_topology(std::move(faces[p]), vertex_count), std::move(rests[p]),
                            places, settings);
+    piece.rest = std::move(places);
   }
   return pieces;
+}
+
+// Whether the pose is the rest shape moved, turned and scaled as a whole, to the digits of single precision
+// that models have.
+bool similar(const Positions& rest, const Positions& pose) {
+  const Eigen::Matrix4d moved = Eigen::umeyama(rest, pose, true);
+  if (!moved.allFinite()) return false;
+  const Positions there = (moved.topLeftCorner<3, 3>() * rest).colwise() + moved.topRightCorner<3, 1>();
+  const double size = pose.cwiseAbs().maxCoeff() + moved.cwiseAbs().maxCoeff() * rest.cwiseAbs().maxCoeff();
+  return (there - pose).cwiseAbs().maxCoeff() <= 1e-6 * size;
 }
 
 double median(std::vector<double> values) {
@@ -160,7 +174,7 @@ double median(std::vector<double> values) {
 // The thickness at which the waves of the squeezed area have the wavelength, in the median by area times
 // compression: h² = 12(1 − ν²) K/|ω|⁴, K the stiffness that curvature and tension of the base give
 // (local_waves.h), whatever h is. Young's modulus multiplies all energies alike.
-shell::Material material_for(double wavelength, const wrinkle::BaseSurface& surface,
+shell::Material material_for(double wavelength, double tension_limit, const wrinkle::BaseSurface& surface,
                              const std::vector<Positions>& bases) {
   shell::Material material;
   material.young = 1e5;
@@ -175,6 +189,7 @@ shell::Material material_for(double wavelength, const wrinkle::BaseSurface& surf
     wrinkle::BaseSurface frame = surface;
     frame.positions = positions;
     auto forms = wrinkle::face_forms(frame);
+    wrinkle::limit_tension(forms, material, tension_limit);
     wrinkle::find_noise(forms, frame, material, false);
     const auto free = wrinkle::wrinkle_free_faces(forms, frame.topology, wrinkle::WrinkleFreeRule::paper);
     std::vector<bool> live;
@@ -224,6 +239,7 @@ FollowReport follow_model(const FollowRequest& request) {
   WrinkleScene& first = report.first;
   first.name = chosen.path.stem().string();
   first.chords = false;
+  first.tension_limit = request.tension_limit;
   first.surface.topology = shell::build_topology(cloth.faces, cloth.from.size());
   const Positions rest_positions = cloth.places(surface.rest);
   first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
@@ -249,11 +265,6 @@ FollowReport follow_model(const FollowRequest& request) {
     poses.push_back(cloth.places(scene::posed(surface, pose)));
     frames.push_back({.frame = n});
   }
-  if (!simulated)
-    log::warn(
-        "a rig stretches what cloth would not, at joints most of all, and its tension is taken for the "
-        "cloth's: waves "
-        "come out too short there; --exclude what is no cloth");
   const std::vector<Piece> pieces = pieces_of(first.surface.topology, first.surface.rest, rest_positions,
                                               request, simulated ? 8 : 4, report.follow);
   std::vector<Positions> bases(poses.size());
@@ -271,6 +282,10 @@ FollowReport follow_model(const FollowRequest& request) {
       Positions pose(3, static_cast<Eigen::Index>(piece.vertices.size()));
       for (std::size_t v = 0; v < piece.vertices.size(); ++v)
         pose.col(static_cast<Eigen::Index>(v)) = poses[n].col(piece.vertices[v]);
+      if (similar(piece.rest, pose)) {
+        ++frame.still;
+        continue;
+      }
       const shell::Followed followed = piece.follower->follow(pose);
       for (std::size_t v = 0; v < piece.vertices.size(); ++v)
         base.col(piece.vertices[v]) = followed.base.col(static_cast<Eigen::Index>(v));
@@ -315,8 +330,9 @@ FollowReport follow_model(const FollowRequest& request) {
       edge = piece.edge;
     }
   report.wavelength = request.wavelength.value_or(3 * edge);
-  first.material =
-      request.material ? *request.material : material_for(report.wavelength, first.surface, of_clip);
+  first.material = request.material
+                       ? *request.material
+                       : material_for(report.wavelength, request.tension_limit, first.surface, of_clip);
   return report;
 }
 

@@ -17,6 +17,7 @@ struct FollowRequest {
   std::string frames;            // a selection; empty: all
   std::optional<double> follow;  // Λ, m; none: 8 mean rest edges of each shell for sequences and caches, 4
                                  // for skins and morphs; 0: the pose itself
+  double tension_limit = 0.05;   // of shell::StretchingLaw; 0: none
   std::optional<shell::Material> material;  // none: one whose waves have the `wavelength`
   std::optional<double> wavelength;         // m, > 0, in the median over the clip; none: 3 mean rest edges
   std::function<void(int done, int of)> progress;
@@ -27,6 +28,7 @@ struct FollowedFrame {
   double moved_rms = 0, moved_most = 0;  // m, from the pose
   double length_kept = 1;                // median of edges' lengths over those at rest
   int iterations = 0;
+  int still = 0;  // shells that are only moved or scaled as a whole: nothing was solved
   bool converged = false;
   double seconds = 0;
 };

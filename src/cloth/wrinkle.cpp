@@ -30,11 +30,15 @@ Error bad(const fs::path& file, const std::string& what) {
 }
 
 // "young 1e7" among a PLY's comments.
-double value_in(const io::Ply& ply, const std::string& name) {
+std::optional<double> value_in(const io::Ply& ply, const std::string& name) {
   for (const std::string& comment : ply.comments) {
     if (!comment.starts_with(name + " ")) continue;
     if (const auto value = parse_number(comment.substr(name.size() + 1))) return *value;
   }
+  return std::nullopt;
+}
+double needed_in(const io::Ply& ply, const std::string& name) {
+  if (const auto value = value_in(ply, name)) return *value;
   throw bad(ply.file,
             fmt::format("has no comment '{} VALUE'; a base surface of 'plisse drape' is wanted", name));
 }
@@ -53,6 +57,7 @@ wrinkle::Model model_of(const WrinkleRequest& request) {
 std::vector<wrinkle::FaceForms> forms_of(const WrinkleRequest& request) {
   const wrinkle::BaseSurface& surface = request.scene.surface;
   auto forms = wrinkle::face_forms(surface, request.curvature);
+  wrinkle::limit_tension(forms, request.scene.material, request.scene.tension_limit);
   const bool chords = request.chords && request.scene.chords;
   if (chords) wrinkle::correct_chords(forms);
   if (request.noise) wrinkle::find_noise(forms, surface, request.scene.material, chords);
@@ -71,7 +76,10 @@ WrinkleScene read_base(const fs::path& file) {
   if (!ply.element("face").find("rest"))
     throw bad(file, "has no list 'rest' of its faces; a base surface of 'plisse drape' is wanted");
   const std::vector<double>& flat = ply.lists("face", "rest", 6);
-  scene.material = {value_in(ply, "young"), value_in(ply, "poisson"), value_in(ply, "thickness"), 0};
+  scene.material = {needed_in(ply, "young"), needed_in(ply, "poisson"), needed_in(ply, "thickness"), 0};
+  scene.tension_limit = value_in(ply, "tension_limit").value_or(0);
+  if (!(scene.tension_limit >= 0 && scene.tension_limit <= 1e6))
+    throw bad(file, fmt::format("tension_limit is {}, and not from 0 to 1e6", scene.tension_limit));
   shell::check(scene.material);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Eigen::Matrix<double, 2, 3> rest = Eigen::Map<const Eigen::Matrix<double, 2, 3>>(&flat[6 * f]);

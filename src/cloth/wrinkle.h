@@ -21,6 +21,7 @@ struct WrinkleScene {
   // Its facets are chords of a smooth surface that was solved for (wrinkle::correct_chords); not so of the
   // TFW authors' set-ups, whose own program takes their strain as it is.
   bool chords = true;
+  double tension_limit = 0;  // of λ₁: what is beyond is no tension (wrinkle/facets.h); 0: none
 };
 
 // A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).

@@ -205,7 +205,8 @@ Followed Follower::follow(const Positions& pose) const {
   }
   const Vector3d origin = pose.rowwise().mean();  // near the shell rounding is least
   const Positions given = pose.colwise() - origin;
-  Shell shell{topology_, rest_, material_, Stretching::tension_field, Bending::off, 0, {}};
+  Shell shell{
+      topology_, rest_, material_, Stretching::tension_field, Bending::off, 0, settings_.tension_limit, {}};
   const Conditions conditions(topology_.vertex_count);
   const Loads loads;
   VectorXd tether = tether_ * areas_;

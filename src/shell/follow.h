@@ -25,6 +25,7 @@ struct FollowSettings {
   double wavelength = 0;  // Λ, m; 0: the base is the pose
   double reach = 0.36;    // ℓ over Λ
   double poisson = 0.3;
+  double tension_limit = 0.05;  // of StretchingLaw; 0: none
   // Curvature that the first solution has is the second's target: a tube of n edges, sewn from flat panels,
   // keeps 1/(1
   // + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.

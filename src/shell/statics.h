@@ -21,7 +21,8 @@ struct Shell {
   Material material;
   Stretching stretching = Stretching::tension_field;
   Bending bending = Bending::quadratic;
-  double residual = 0;  // η of StretchingLaw
+  double residual = 0;       // η of StretchingLaw
+  double tension_limit = 0;  // of StretchingLaw
   std::vector<Eigen::Matrix2d>
       rest_forms;  // II_u of each face, 1/m, for mid-edge bending; empty: flat at rest
 };

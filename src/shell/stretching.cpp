@@ -1,6 +1,7 @@
 #include "shell/stretching.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace plisse::shell {
@@ -25,7 +26,20 @@ StretchingDensity stvk_density(const Material& m, double l1, double l2) {
   return d;
 }
 
-StretchingDensity tension_field_density(const Material& m, double l1, double l2) {
+// Where the larger stress is at the limit s, N/m².
+StretchingDensity limited_density(const Material& m, double s, double l1, double l2) {
+  const double quarter = m.thickness / 4, free = m.young * l2 + m.poisson * s;
+  const double other = std::clamp(free, 0.0, s);
+  StretchingDensity d;
+  d.value =
+      quarter * (s * l1 + other * l2 - (s * s + other * other - 2 * m.poisson * s * other) / (2 * m.young));
+  d.first = quarter * Vector2d(s, other);
+  if (other == free) d.second(1, 1) = quarter * m.young;
+  if (other < s) d.shear = (d.first[0] - d.first[1]) / (l1 - l2);  // σ₁ > σ₂ only where λ₁ > λ₂
+  return d;
+}
+
+StretchingDensity relaxed_density(const Material& m, double l1, double l2) {
   switch (tension_state(m, l1, l2)) {
     case TensionState::slack:
       return {};
@@ -44,6 +58,13 @@ StretchingDensity tension_field_density(const Material& m, double l1, double l2)
   return d;
 }
 
+StretchingDensity tension_field_density(const StretchingLaw& law, double l1, double l2) {
+  const Material& m = law.material;
+  const StretchingDensity free = relaxed_density(m, l1, l2);
+  const double s = m.young * law.tension_limit;
+  return s > 0 && free.first[0] > m.thickness / 4 * s ? limited_density(m, s, l1, l2) : free;
+}
+
 }  // namespace
 
 TensionState tension_state(const Material& material, double lambda1, double lambda2) {
@@ -51,9 +72,20 @@ TensionState tension_state(const Material& material, double lambda1, double lamb
   return lambda2 < -material.poisson * lambda1 ? TensionState::wrinkled : TensionState::taut;
 }
 
+Vector2d elastic_strain(const StretchingLaw& law, double lambda1, double lambda2) {
+  const Material& m = law.material;
+  const Vector2d stress = stretching_density(law, lambda1, lambda2).first * 4 / m.thickness;
+  const double s = m.young * law.tension_limit;
+  Vector2d strain(lambda1, lambda2);
+  if (!(s > 0) || stress[0] < s * (1 - 1e-12)) return strain;
+  strain[0] = (stress[0] - m.poisson * stress[1]) / m.young;
+  if (stress[1] >= s * (1 - 1e-12)) strain[1] = (stress[1] - m.poisson * stress[0]) / m.young;
+  return strain;
+}
+
 StretchingDensity stretching_density(const StretchingLaw& law, double lambda1, double lambda2) {
   if (law.model == Stretching::stvk) return stvk_density(law.material, lambda1, lambda2);
-  StretchingDensity density = tension_field_density(law.material, lambda1, lambda2);
+  StretchingDensity density = tension_field_density(law, lambda1, lambda2);
   if (law.residual > 0) {
     const StretchingDensity full = stvk_density(law.material, lambda1, lambda2);
     const double kept = 1 - law.residual;

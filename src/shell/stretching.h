@@ -20,6 +20,9 @@ struct StretchingLaw {
   // η: ψ = (1 − η) ψ_tension_field + η ψ_stvk, so that slack cloth keeps a little of its stiffness. 0 … 1; 0:
   // none. Distributes strain that tension field theory leaves undetermined.
   double residual = 0;
+  // Of tension field theory alone: no principal stress is above that of the uniaxial strain λ₁ = limit; 0: no
+  // limit. What a rig stretches beyond it is no tension, as if the rest shape had grown by it.
+  double tension_limit = 0;
 };
 
 // The states of tension field theory: zero, one or two principal stresses.
@@ -27,6 +30,14 @@ enum class TensionState { slack, wrinkled, taut };
 
 // The state changes where the stress of the relaxed law is continuous: at λ₁ = 0 and λ₂ = −νλ₁.
 TensionState tension_state(const Material& material, double lambda1, double lambda2);
+
+// With a tension limit ℓ, s = Yℓ: ψ = h/4 max {σ₁λ₁ + σ₂λ₂ − (σ₁² + σ₂² − 2νσ₁σ₂)/2Y : 0 ≤ σ₂, σ₁ ≤ s}, the
+// relaxed law where σ₁ ≤ s. Beyond: σ₁ = s and σ₂ = min(max(Yλ₂ + νs, 0), s), so that ψ goes on linearly in
+// λ₁ (in both at σ₂ = s). A maximum of linear functions of the strain that grow with it, ψ stays convex in
+// the positions and has continuous stress; clamping λ₁ would do neither.
+//
+// The strain that carries this stress: (λ₁, λ₂) less what is beyond the limit.
+Eigen::Vector2d elastic_strain(const StretchingLaw& law, double lambda1, double lambda2);
 
 // ψ and its derivatives by the two eigenvalues, J/m².
 struct StretchingDensity {

@@ -8,7 +8,7 @@ namespace {
 class StretchingTerm : public FaceTerm {
  public:
   explicit StretchingTerm(const Shell& shell)
-      : shell_(shell), law_{shell.material, shell.stretching, shell.residual} {}
+      : shell_(shell), law_{shell.material, shell.stretching, shell.residual, shell.tension_limit} {}
 
   std::string_view name() const override { return "stretching"; }
   double element(std::uint32_t face, const Positions& x, Vector9* gradient, Matrix9* hessian,

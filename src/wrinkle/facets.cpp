@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "shell/stretching.h"
 #include "wrinkle/patches.h"
 
 namespace plisse::wrinkle {
@@ -68,6 +69,21 @@ std::vector<double> around(const shell::Topology& topology, const std::vector<Fa
 constexpr double crease = 1;
 
 }  // namespace
+
+void limit_tension(std::vector<FaceForms>& forms, const shell::Material& material, double limit) {
+  if (!(limit > 0)) return;
+  shell::StretchingLaw law;
+  law.material = material;
+  law.tension_limit = limit;
+  for (FaceForms& face : forms) {
+    const shell::Principal strain = shell::principal(face.strain);
+    const Vector2d elastic = shell::elastic_strain(law, strain.value[0], strain.value[1]);
+    for (int i = 0; i < 2; ++i)  // what is within the limit keeps its bytes
+      if (elastic[i] != strain.value[i])
+        face.strain +=
+            (elastic[i] - strain.value[i]) * strain.direction.col(i) * strain.direction.col(i).transpose();
+  }
+}
 
 void correct_chords(std::vector<FaceForms>& forms) {
   for (FaceForms& face : forms) {

@@ -1,5 +1,6 @@
-// What of a base surface's compression is none: a curved surface's facets are chords of it, shorter than the
-// cloth that they stand for, and below some strain there is nothing but rounding.
+// What of a base surface's strain is none: a rig's stretch is more than cloth's, a curved surface's facets
+// are chords of it, shorter than the cloth that they stand for, and below some strain there is nothing but
+// rounding.
 #pragma once
 
 #include <vector>
@@ -8,6 +9,10 @@
 #include "wrinkle/surface.h"
 
 namespace plisse::wrinkle {
+
+// Takes the tension beyond a limit out of each face's strain (shell::elastic_strain): a rig stretches what
+// cloth would not. limit: of λ₁, twice the Green strain; 0: none.
+void limit_tension(std::vector<FaceForms>& forms, const shell::Material& material, double limit);
 
 // Takes the facets' part out of each face's compression λ₂. An edge of rest length l with normal curvature κ
 // is a chord, chord² = l²(1 − (κl)²/12), so that the strain lacks C with eᵀCe = (eᵀII_b e)²/12 on all three

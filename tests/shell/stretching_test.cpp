@@ -30,6 +30,7 @@ std::vector<StretchingLaw> laws() {
   return {{material, Stretching::stvk, 0},
           {material, Stretching::tension_field, 0},
           {material, Stretching::tension_field, 1e-3},
+          {material, Stretching::tension_field, 0, 0.05},
           {{1e6, 0, 1e-3, 0}, Stretching::tension_field, 0},
           {{1e6, 0.5, 1e-3, 0}, Stretching::tension_field, 0}};
 }
@@ -72,7 +73,7 @@ TEST(ShellStretching, DerivativesAtThreeSteps) {
   const RestFace rest = rest_face(rest_corners, 0);
   for (const StretchingLaw& law : laws())
     for (const Vector2d& strain : {Vector2d(0.3, 0.1), Vector2d(0.3, -0.6), Vector2d(-0.2, -0.5),
-                                   Vector2d(1e-3, 5e-4), Vector2d(0.02, 0.02)}) {
+                                   Vector2d(1e-3, 5e-4), Vector2d(0.02, 0.02), Vector2d(0.2, 0.01)}) {
       // An energy of 0 has no relative error.
       if (strain[0] < 0 && law.model == Stretching::tension_field && law.residual == 0) continue;
       const Corners corners = posed(rest, strain[0], strain[1], random);
@@ -123,14 +124,45 @@ TEST(ShellStretching, RigidMotionsChangeNothing) {
 TEST(ShellStretching, TensionFieldIsConvex) {
   Random random(3);
   const RestFace rest = rest_face((Corners() << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished(), 0);
-  for (const double nu : {0.0, 0.3, 0.5}) {
-    const StretchingLaw law{{1e6, nu, 1e-3, 0}, Stretching::tension_field, 0};
+  for (const auto& [nu, limit] :
+       {std::pair(0.0, 0.0), {0.3, 0.0}, {0.5, 0.0}, {0.0, 0.5}, {0.3, 0.5}, {0.5, 2.0}}) {
+    const StretchingLaw law{{1e6, nu, 1e-3, 0}, Stretching::tension_field, 0, limit};
     for (int trial = 0; trial < 30000; ++trial) {
       const Corners a = random.corners(), b = random.corners();
       const double chord = 0.5 * (stretching(law, rest, a) + stretching(law, rest, b));
       // Rounding of energies.
       ASSERT_LE(stretching(law, rest, 0.5 * (a + b)), chord * (1 + 1e-13));
     }
+  }
+}
+
+// Closed forms of the limit s = Yl: pulled one way ψ = h/4 (½Yl² + s(λ − l)), both ways the stresses are s
+// and no more; the elastic strain carries that stress, and what is within the limit is as without.
+TEST(ShellStretching, TensionEndsAtItsLimit) {
+  const double young = material.young, nu = material.poisson, limit = 0.05, quarter = material.thickness / 4;
+  const StretchingLaw law{material, Stretching::tension_field, 0, limit},
+      free{material, Stretching::tension_field, 0};
+  for (const double l1 : {0.06, 0.3, 13.0}) {
+    const StretchingDensity pulled = stretching_density(law, l1, -0.5 * l1);
+    EXPECT_NEAR(pulled.value, quarter * young * limit * (limit / 2 + l1 - limit), 1e-12 * pulled.value);
+    EXPECT_EQ(pulled.first, Vector2d(quarter * young * limit, 0));
+    EXPECT_EQ(elastic_strain(law, l1, -0.5 * l1), Vector2d(limit, -0.5 * l1));
+    const StretchingDensity both = stretching_density(law, l1, l1);
+    EXPECT_EQ(both.first, Vector2d(quarter * young * limit, quarter * young * limit));
+    EXPECT_NEAR((elastic_strain(law, l1, l1) - Vector2d::Constant((1 - nu) * limit)).norm(), 0, 1e-15);
+  }
+  for (const Vector2d& within : {Vector2d(0.04, -0.2), Vector2d(0.03, 0.01), Vector2d(-0.1, -0.2)}) {
+    EXPECT_EQ(stretching_density(law, within[0], within[1]).value,
+              stretching_density(free, within[0], within[1]).value);
+    EXPECT_EQ(elastic_strain(law, within[0], within[1]), within);
+  }
+  // The stress of the elastic strain is the limited one: the two ways to the same number.
+  for (const Vector2d& beyond : {Vector2d(0.2, 0.01), Vector2d(0.2, -0.01), Vector2d(0.2, 0.06)}) {
+    const Vector2d elastic = elastic_strain(law, beyond[0], beyond[1]);
+    EXPECT_NEAR((stretching_density(free, elastic[0], elastic[1]).first -
+                 stretching_density(law, beyond[0], beyond[1]).first)
+                    .norm(),
+                0, 1e-13 * quarter * young);
   }
 }
 

@@ -84,6 +84,27 @@ TEST(Facets, RoundingSeedsNothing) {
   }
 }
 
+// A rig's stretch of 96 % counts as the limit's 5 % of tension; the compression across stays, and so does
+// what is within the limit, to the last bit.
+TEST(Facets, TensionBeyondTheLimitIsNone) {
+  const Grid grid(1, 1, 6, 6);
+  const auto pulled = [&](double along, double across) {
+    return face_forms(
+        test::moved(grid, [&](const Vector3d& x) { return Vector3d(along * x.x(), across * x.y(), 0); }));
+  };
+  auto forms = pulled(1.4, 0.9);
+  limit_tension(forms, cloth, 0.05);
+  for (const FaceForms& face : forms) {
+    const PrincipalStrain strain = principal_strain(face);
+    EXPECT_NEAR(strain.tension, 0.05, 1e-14);
+    EXPECT_NEAR(strain.compression, 0.9 * 0.9 - 1, 1e-14);
+  }
+  const auto within = pulled(1.02, 0.9);
+  forms = within;
+  limit_tension(forms, cloth, 0.05);
+  for (std::size_t f = 0; f < forms.size(); ++f) EXPECT_EQ(forms[f].strain, within[f].strain);
+}
+
 TEST(BaseCheck, AnotherUnit) {
   const Grid grid(1, 1, 8, 8);
   EXPECT_TRUE(base_faults(on_cylinder(grid).topology, face_forms(on_cylinder(grid, 0.05))).empty());
