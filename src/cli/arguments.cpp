@@ -74,8 +74,16 @@ SceneArguments::SceneArguments(CommandOptions& options, const Wanted& wanted) : 
       "input", input_, "SCENE.toml|MODEL",
       described("A scene file, or a model: a file, a numbered sequence (drape_####.obj) or its folder; or a "
                 "panel file (docs/sizing.md)"));
+  std::string table;
   for (const config::SceneOption& option : config::scene_options()) {
     if (!wanted(option.name)) continue;
+    if (option.table == "solve" && table != "solve") {
+      options.set_headline("[solve], overriding the scene's keys");
+      options.flag("--solve", solve_,
+                   described("Solve wrinkles before drawing: base surfaces that follow the model, and the "
+                             "waves that their cloth takes"));
+    }
+    table = option.table;
     Given& given = given_.emplace_back(Given{option.name, {}});
     const std::string names = option.name == "--output" ? "-o,--output" : option.name;
     options.set_headline("[" + option.table + "], overriding the scene's keys");
@@ -96,6 +104,20 @@ config::SceneSettings SceneArguments::settings() const {
     if (!given.values.empty()) options.emplace_back(given.option, given.values);
   }
   config::apply_options(scene, options);
+  scene.solve.on = scene.solve.on || solve_;
+  for (const config::SceneOption& option : config::scene_options()) {
+    const auto given = std::find_if(options.begin(), options.end(),
+                                    [&](const auto& entry) { return entry.first == option.name; });
+    if (option.table == "solve" && given != options.end() && !scene.solve.on)
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: goes with --solve, or with the table [solve] of a scene", option.name));
+  }
+  if (solve_ && !(scene.bias.field.empty() && scene.bias.file.empty() && scene.bias.paint.empty()))
+    throw Error(ExitCode::bad_input,
+                "--solve: the scene has wrinkles of its own in [bias], whose place solved ones would take");
+  if (scene.solve.on && !scene.solve.fabric.empty() && scene.wrinkles.wavelength > 0)
+    throw Error(ExitCode::bad_input,
+                "--fabric and --wavelength: a fabric has waves of its own length; give one");
   return scene;
 }
 

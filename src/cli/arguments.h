@@ -63,6 +63,7 @@ class SceneArguments {
   };
   std::string command_;
   std::string input_;
+  bool solve_ = false;
   std::deque<Given> given_;  // a deque: the command line keeps references to its elements
 };
 

@@ -14,6 +14,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/solved_scene.h"
 #include "config/suggest.h"
 #include "pipeline/bake.h"
 
@@ -25,6 +26,7 @@ using nlohmann::ordered_json;
 struct Arguments {
   explicit Arguments(CommandOptions& options)
       : scene(options, [](const std::string& option) { return decides_geometry(option); }),
+        solve(options),
         device(options),
         common(options) {
     options.add("-o,--output", output, "DIR", "The folder for height_####.exr and .png and normal_####.png");
@@ -69,6 +71,7 @@ struct Arguments {
   }
 
   SceneArguments scene;
+  SolveArguments solve;
   DeviceArguments device;
   CommonArguments common;
   std::string output, texture_size, green = "up", outside, shaders;
@@ -94,8 +97,11 @@ int run_bake(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  const pipeline::BakeRequest request = arguments.request();
+  pipeline::BakeRequest request = arguments.request();
   install_interrupt_handlers();
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  if (solved.interrupted) return 128 + signal_number();
+  request.memory = std::move(solved.memory);
   pipeline::BakeReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
@@ -103,9 +109,11 @@ int run_bake(Arguments& arguments) {
   }
   log::notice(fmt::format("{} files in {:.2f} s; black and white of height's PNG are ∓{:.4g} mm → {}",
                           report.outputs.size(), report.wall_s, 1000 * report.scale_m, request.output));
-  write_report(to_json(report), arguments.common.json());
+  ordered_json json = to_json(report);
+  if (!solved.report.is_null()) json["solve"] = std::move(solved.report);
+  write_report(json, arguments.common.json());
   if (report.interrupted) return 128 + signal_number();
-  return 0;
+  return static_cast<int>(solved.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
 }  // namespace

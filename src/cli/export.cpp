@@ -12,6 +12,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/solved_scene.h"
 #include "mesh/subdivide.h"
 #include "pipeline/export.h"
 
@@ -23,6 +24,7 @@ using nlohmann::ordered_json;
 struct Arguments {
   explicit Arguments(CommandOptions& options)
       : scene(options, [](const std::string& option) { return decides_geometry(option); }),
+        solve(options),
         device(options),
         common(options) {
     options.add("-o,--output", output, "PATTERN|CACHE",
@@ -39,6 +41,7 @@ struct Arguments {
   }
 
   SceneArguments scene;
+  SolveArguments solve;
   DeviceArguments device;
   CommonArguments common;
   std::string output, levels, outside, shaders;
@@ -75,6 +78,9 @@ int run_export(Arguments& arguments) {
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  if (solved.interrupted) return 128 + signal_number();
+  request.memory = std::move(solved.memory);
   pipeline::ExportReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
@@ -83,9 +89,11 @@ int run_export(Arguments& arguments) {
   log::notice(fmt::format("{} file{} in {:.2f} s: {} vertices, {} triangles, edges halved {} times → {}",
                           report.outputs.size(), report.outputs.size() == 1 ? "" : "s", report.wall_s,
                           report.positions, report.triangles, report.levels, request.output));
-  write_report(to_json(report), arguments.common.json());
+  ordered_json json = to_json(report);
+  if (!solved.report.is_null()) json["solve"] = std::move(solved.report);
+  write_report(json, arguments.common.json());
   if (report.interrupted) return 128 + signal_number();
-  return 0;
+  return static_cast<int>(solved.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
 }  // namespace

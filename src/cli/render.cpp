@@ -15,6 +15,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/solved_scene.h"
 #include "mesh/subdivide.h"
 #include "passes/aov.h"
 #include "pipeline/render.h"
@@ -25,7 +26,8 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-  explicit Arguments(CommandOptions& options) : scene(options), device(options), common(options) {
+  explicit Arguments(CommandOptions& options)
+      : scene(options), solve(options), device(options), common(options) {
     options.add("--aov", aovs, Values::with_commas, "NAMES",
                 described("Pictures of data beside each frame, as EXR and PNG: " + passes::aov_list() +
                           ", or several with commas"));
@@ -77,6 +79,7 @@ struct Arguments {
   }
 
   SceneArguments scene;
+  SolveArguments solve;
   DeviceArguments device;
   CommonArguments common;
   std::vector<std::string> aovs;
@@ -153,11 +156,14 @@ int run_render(Arguments& arguments) {
     arguments.device.list();
     return 0;
   }
-  const pipeline::RenderRequest request = arguments.request();
+  pipeline::RenderRequest request = arguments.request();
   install_interrupt_handlers();
 
   if (!arguments.common.json().empty() && arguments.common.json() != "-")
     check_writable(arguments.common.json());
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  if (solved.interrupted) return 128 + signal_number();
+  request.memory = std::move(solved.memory);
   pipeline::RenderReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
@@ -165,13 +171,16 @@ int run_render(Arguments& arguments) {
     report = pipeline::render(request, frame_progress(progress));
   }
   summarise(report, request.scene.output.path);
-  write_report(to_json(report), arguments.common.json());
+  ordered_json json = to_json(report);
+  if (!solved.report.is_null()) json["solve"] = std::move(solved.report);
+  write_report(json, arguments.common.json());
   if (report.interrupted) {
     log::notice("interrupted; the frames written so far are whole");
     return 128 + signal_number();
   }
   if (report.outcome == ExitCode::no_output || report.outcome == ExitCode::try_again)
     throw Error(report.outcome, report.failure);
+  if (report.outcome == ExitCode::fine && !solved.converged) return static_cast<int>(ExitCode::check_failed);
   return static_cast<int>(report.outcome);
 }
 

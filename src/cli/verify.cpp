@@ -14,6 +14,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/report.h"
+#include "cli/solved_scene.h"
 #include "pipeline/render.h"
 #include "pipeline/verify.h"
 
@@ -25,6 +26,7 @@ using nlohmann::ordered_json;
 struct Arguments {
   explicit Arguments(CommandOptions& options)
       : scene(options, [](const std::string& option) { return option != "--output"; }),
+        solve(options),
         device(options),
         common(options) {
     options.add("--shaders", shaders, "DIR",
@@ -32,6 +34,7 @@ struct Arguments {
   }
 
   SceneArguments scene;
+  SolveArguments solve;
   DeviceArguments device;
   CommonArguments common;
   std::string shaders;
@@ -105,14 +108,18 @@ int run_verify(Arguments& arguments) {
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
-
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  if (solved.interrupted) return 128 + signal_number();
+  request.memory = std::move(solved.memory);
   pipeline::VerifyReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
     report = pipeline::verify(request, frame_progress(progress));
   }
   if (arguments.common.tables_wanted()) write_stdout(table(report));
-  write_report(to_json(report), arguments.common.json());
+  ordered_json json = to_json(report);
+  if (!solved.report.is_null()) json["solve"] = std::move(solved.report);
+  write_report(json, arguments.common.json());
   if (report.interrupted) return 128 + signal_number();
   return static_cast<int>(report.ok ? ExitCode::fine : ExitCode::check_failed);
 }

@@ -278,6 +278,9 @@ ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
                       {"share", solved.share},
                       {"phase_step_rad", solved.phase_step},
                       {"max_amplitude_m", frame.max_amplitude},
+                      {"compression", frame.taken.compression},
+                      {"untaken", frame.taken.untaken},
+                      {"wavelength_m", frame.taken.wavelength},
                       {"wrinkle_free_faces", frame.wrinkle_free_faces},
                       {"energy_J", solved.energy},
                       {"kkt_scaled", solved.kkt},
@@ -356,18 +359,21 @@ cloth::FollowRequest follow_request_of(const Arguments& arguments) {
   if (!arguments.cache.empty()) scene.model.cache = arguments.cache;
   if (!arguments.only.empty()) scene.wrinkles.only = arguments.only;
   if (!arguments.exclude.empty()) scene.wrinkles.exclude = arguments.exclude;
-  request.frames = arguments.frames;
-  if (!arguments.follow.empty()) request.follow = length_option("--follow", arguments.follow, true);
+  if (!arguments.frames.empty()) scene.model.frames = arguments.frames;
+  if (!arguments.follow.empty()) scene.solve.follow = length_option("--follow", arguments.follow, true);
   if (!arguments.tension_limit.empty())
-    request.tension_limit = number_in("--tension-limit", arguments.tension_limit, 0, 1e6);
+    scene.solve.tension_limit = number_in("--tension-limit", arguments.tension_limit, 0, 1e6);
   if (!arguments.wavelength.empty())
-    request.wavelength = length_option("--wavelength", arguments.wavelength, false);
+    scene.wrinkles.wavelength = length_option("--wavelength", arguments.wavelength, false);
   if (!arguments.fabric.empty()) {
-    if (request.wavelength)
+    fabric_option(arguments.fabric);  // says what is wrong with it
+    scene.solve.fabric = arguments.fabric;
+    if (!arguments.wavelength.empty())
       throw Error(ExitCode::bad_input,
                   "--fabric and --wavelength: a fabric has waves of its own length; give one");
-    request.material = cloth::material_of(fabric_option(arguments.fabric), {}, {}).material;
+    scene.wrinkles.wavelength = 0;
   }
+  request.cache = arguments.solved.folder();
   return request;
 }
 
@@ -378,8 +384,7 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
                          {"--example", !arguments.example.empty()},
                          {"--evaluate", !arguments.evaluate.empty()},
                          {"--local-law", arguments.local_law},
-                         {"--free-held", arguments.free_held},
-                         {"--cache-dir", arguments.solved.given()}},
+                         {"--free-held", arguments.free_held}},
                         "for a model, of which nothing is draped or held");
   const std::filesystem::path folder = arguments.output, scene = folder / "scene.toml";
   const std::vector<std::string> files = {".ply", ".txt", ".obj", ".glb", ".svg", ".png", ".toml"};
@@ -418,10 +423,14 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
       followed.follow > 0 ? "what is" : "nothing", followed.follow, 1e3 * first.material.thickness));
   request.each.scene = first;
   request.each.output = folder / "field_####.ply";
-  request.first = followed.frames.front().frame;
+  // Frames between those picked are written as well, so that the folder can be played.
+  const std::vector<int> picked =
+      config::select_frames(follow.scene.model.frames, static_cast<int>(followed.frames.size()));
+  request.frames = fmt::format("{}-{}", picked.front(), picked.back());
   ordered_json outputs = ordered_json::array();
   bool converged = true;
-  for (std::size_t n = 0; n < followed.frames.size(); ++n) {
+  for (int number = picked.front(); number <= picked.back(); ++number) {
+    const auto n = static_cast<std::size_t>(number - 1);
     const cloth::FollowedFrame& frame = followed.frames[n];
     converged = converged && frame.converged;
     if (!frame.converged) log::warn(fmt::format("frame {}: its base surface did not converge", frame.frame));
@@ -433,9 +442,6 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
                       frame.converged ? "" : "no step lowers its energy any more, or too many were needed");
     outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
   }
-  if (followed.picked.size() < followed.frames.size())
-    log::notice(
-        "frames between those picked are solved and written as well, so that the folder can be played");
   request.poses = std::move(followed.bases);
   const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
   if (report.interrupted) return 128 + signal_number();
@@ -466,7 +472,7 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
   json["thickness_m"] = first.material.thickness;
   for (ordered_json& entry : json["frames"]) {
     const cloth::FollowedFrame& frame =
-        followed.frames[static_cast<std::size_t>(entry["frame"].get<int>() - followed.frames.front().frame)];
+        followed.frames[static_cast<std::size_t>(entry["frame"].get<int>() - 1)];
     entry["moved_rms_m"] = frame.moved_rms;
     entry["moved_most_m"] = frame.moved_most;
     entry["length_kept"] = frame.length_kept;

@@ -19,6 +19,10 @@ namespace plisse::cloth {
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+// What `members` of a struct takes, constant or not.
+template <typename T, typename Of>
+concept Is = std::is_same_v<std::remove_const_t<T>, Of>;
+
 template <typename T>
 concept DenseMatrix = std::is_base_of_v<Eigen::PlainObjectBase<T>, T>;
 

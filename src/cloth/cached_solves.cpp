@@ -1,21 +1,11 @@
 #include "cloth/cached_solves.h"
 
-#include <optional>
 #include <variant>
 
 #include "base/clock.h"
-#include "cloth/archive.h"
+#include "cloth/cached_answer.h"
 
 namespace plisse::cloth {
-namespace {
-
-constexpr double worth_keeping_s = 0.002;  // looking a solution up takes about as long
-
-template <typename T, typename Of>
-concept Is = std::is_same_v<std::remove_const_t<T>, Of>;
-
-}  // namespace
-
 // Not in the nameless namespace: archives find these by their argument.
 
 // --- what an equilibrium depends on, and what it is
@@ -78,6 +68,11 @@ void members(auto& a, Is<shell::Equilibrium> auto& value) {
     assembly_s, factor_s, line_search_s, analysis_s, factor_nonzeros);
 }
 
+void members(auto& a, Is<shell::Followed> auto& value) {
+  auto& [base, moved_rms, moved_most, iterations, converged] = value;
+  a(base, moved_rms, moved_most, iterations, converged);
+}
+
 // --- what a field depends on, and what it is
 
 void members(auto& a, Is<wrinkle::FaceForms> auto& value) {
@@ -124,33 +119,19 @@ void members(auto& a, Is<wrinkle::Field> auto& value) {
     wavelength, solves, iterations, factorisations, solve_s, phase_s);
 }
 
-namespace {
-
-// With the seconds that it took.
-template <typename Answer>
-std::optional<Answer> answered(const SolvedCache& cache, const Hash& question, Reuse& reuse) {
+std::vector<shell::Followed> cached_bases(const SolvedCache& cache, Reuse& reuse, const Hash& shells,
+                                          const shell::Positions& pose,
+                                          const std::function<std::vector<shell::Followed>()>& solve) {
+  if (!cache.on()) return solve();
+  Hash question = shells;
+  Hasher hasher(question);
+  hasher(pose);
+  if (auto known = answered<std::vector<shell::Followed>>(cache, question, reuse)) return std::move(*known);
   const double began = wall_seconds();
-  const auto bytes = cache.find(question);
-  if (!bytes) return std::nullopt;
-  double seconds = 0;
-  Answer answer;
-  Reader reader(*bytes);
-  reader(seconds, answer);
-  if (!reader.at_end()) return std::nullopt;
-  ++reuse.answers;
-  reuse.saved_s += seconds - (wall_seconds() - began);
-  return answer;
+  std::vector<shell::Followed> found = solve();
+  if (!found.empty()) keep(cache, question, found, wall_seconds() - began);
+  return found;
 }
-
-template <typename Answer>
-void keep(const SolvedCache& cache, const Hash& question, const Answer& answer, double seconds) {
-  if (seconds < worth_keeping_s) return;
-  Writer writer;
-  writer(seconds, answer);
-  cache.keep(question, writer.bytes());
-}
-
-}  // namespace
 
 shell::Equilibrium cached_equilibrium(const SolvedCache& cache, Reuse& reuse, const shell::Shell& shell,
                                       const shell::Conditions& conditions, const shell::Loads& loads,

@@ -2,17 +2,21 @@
 // once.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "cloth/solved_cache.h"
+#include "shell/follow.h"
 #include "shell/newton.h"
 #include "wrinkle/field.h"
 
 namespace plisse::cloth {
 
-// The results that a run took from the cache.
-struct Reuse {
-  int answers = 0;
-  double saved_s = 0;  // the time of their solves, less the time to look them up
-};
+// The base surfaces of a pose's shells (follow_model.h), by the hash of these shells; `solve` runs if they
+// are not in the cache. An empty result, of an interrupted solve, is not stored.
+std::vector<shell::Followed> cached_bases(const SolvedCache& cache, Reuse& reuse, const Hash& shells,
+                                          const shell::Positions& pose,
+                                          const std::function<std::vector<shell::Followed>()>& solve);
 
 // As shell::find_equilibrium, which runs if the result is not in the cache. Results that did not converge, or
 // took less than two milliseconds, are not stored.

@@ -5,22 +5,21 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <map>
 #include <mutex>
 #include <numbers>
-#include <set>
 
 #include "base/clock.h"
-#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "config/frames.h"
+#include "cloth/archive.h"
+#include "cloth/fabric_material.h"
+#include "config/fabric.h"
 #include "scene/animation.h"
 #include "scene/load_model.h"
 #include "scene/wrinkles.h"
+#include "shell/follow.h"
 #include "wrinkle/facets.h"
 #include "wrinkle/local_waves.h"
 
@@ -30,85 +29,25 @@ namespace {
 using shell::Face;
 using shell::Positions;
 
-// The selected parts' faces as shells: vertices of their own, from those of the model.
-struct Cloth {
-  std::vector<std::uint32_t> from;  // of each vertex: the welded vertex of the model
-  std::vector<Face> faces;
-
-  Positions places(const std::vector<glm::dvec3>& welded) const {
-    Positions result(3, static_cast<Eigen::Index>(from.size()));
-    for (std::size_t v = 0; v < from.size(); ++v)
-      result.col(static_cast<Eigen::Index>(v)) = to_eigen(welded[from[v]]);
-    return result;
-  }
-};
-
-bool has_area(const std::vector<glm::dvec3>& rest, const Face& face) {
-  const glm::dvec3 a = rest[face[1]] - rest[face[0]], b = rest[face[2]] - rest[face[0]], c = b - a;
-  const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
-  return glm::length(glm::cross(a, b)) > 1e-10 * longest;
-}
-
-Cloth selected(const Surface& surface) {
-  Cloth cloth;
-  std::vector<Face> loose;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> sides;  // a side with its direction belongs to one face
-  std::size_t flat = 0;
-  for (const Part& part : surface.parts) {
-    if (!part.wrinkles) continue;
-    for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-      Face face;
-      for (std::size_t c = 0; c < 3; ++c)
-        face[c] = surface.render_vertices[surface.triangles[3 * t + c]].welded;
-      if (!has_area(surface.rest, face)) {
-        ++flat;
-        continue;
-      }
-      const auto side = [&](std::size_t c) { return std::pair(face[c], face[(c + 1) % 3]); };
-      if (sides.contains(side(0)) || sides.contains(side(1)) || sides.contains(side(2))) {
-        loose.push_back(face);
-        continue;
-      }
-      for (std::size_t c = 0; c < 3; ++c) sides.insert(side(c));
-      cloth.faces.push_back(face);
-    }
-  }
-  if (cloth.faces.empty())
-    throw Error(ExitCode::bad_input, "no triangle is selected that has an area: nothing can wrinkle");
-  if (flat > 0) log::warn(fmt::format("{} triangles without area are left out", flat));
-  if (!loose.empty())
-    log::warn(
-        fmt::format("{} faces at edges where more than two faces meet, or that are turned over beside their "
-                    "neighbours, are cut loose",
-                    loose.size()));
-  std::map<std::uint32_t, std::uint32_t> number;
-  for (Face& face : cloth.faces)
-    for (auto& v : face) {
-      const auto [entry, fresh] = number.try_emplace(v, static_cast<std::uint32_t>(cloth.from.size()));
-      if (fresh) cloth.from.push_back(v);
-      v = entry->second;
-    }
-  for (Face face : loose) {
-    for (auto& v : face) {
-      cloth.from.push_back(v);
-      v = static_cast<std::uint32_t>(cloth.from.size() - 1);
-    }
-    cloth.faces.push_back(face);
-  }
-  return cloth;
-}
-
 // One connected shell with its own Λ.
 struct Piece {
   std::vector<std::uint32_t> vertices;
   double edge = 0;  // mean rest edge, m
   Positions rest;   // where its vertices are at rest, m
+  shell::FollowSettings settings;
   std::optional<shell::Follower> follower;
+
+  Positions part_of(const Positions& of_all) const {
+    Positions result(3, static_cast<Eigen::Index>(vertices.size()));
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      result.col(static_cast<Eigen::Index>(v)) = of_all.col(vertices[v]);
+    return result;
+  }
 };
 
 std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<shell::RestFace>& rest,
-                             const Positions& rest_positions, const FollowRequest& request, double edges,
-                             double& largest) {
+                             const Positions& rest_positions, const config::SolveSettings& solve,
+                             double poisson, double edges, double& largest) {
   std::vector<Piece> pieces(topology.component_count);
   std::vector<std::uint32_t> local(topology.vertex_count, 0);
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
@@ -135,21 +74,18 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     Piece& piece = pieces[p];
     piece.edge /= static_cast<double>(std::max<std::size_t>(count[p], 1));
-    Positions places(3, static_cast<Eigen::Index>(piece.vertices.size()));
-    for (std::size_t v = 0; v < piece.vertices.size(); ++v)
-      places.col(static_cast<Eigen::Index>(v)) = rest_positions.col(piece.vertices[v]);
-    shell::FollowSettings settings;
-    settings.wavelength = request.follow.value_or(edges * piece.edge);
-    settings.tension_limit = request.tension_limit;
-    if (request.material) settings.poisson = request.material->poisson;
+    piece.rest = piece.part_of(rest_positions);
+    shell::FollowSettings& settings = piece.settings;
+    settings.wavelength = solve.follow >= 0 ? solve.follow : edges * piece.edge;
+    settings.tension_limit = solve.tension_limit;
+    settings.poisson = poisson;
     if (faces[p].size() > most) {
       most = faces[p].size();
       largest = settings.wavelength;
     }
     const std::size_t vertex_count = piece.vertices.size();
     piece.follower.emplace(shell::build_topology(std::move(faces[p]), vertex_count), std::move(rests[p]),
-                           places, settings);
-    piece.rest = std::move(places);
+                           piece.rest, settings);
   }
   return pieces;
 }
@@ -222,105 +158,154 @@ shell::Material material_for(double wavelength, double tension_limit, const wrin
   return material;
 }
 
+// Each shell's base; a shell that is only moved as a whole is its own, and has no value.
+std::vector<shell::Followed> follow(const std::vector<Piece>& pieces, const Positions& pose) {
+  std::vector<shell::Followed> result;
+  for (const Piece& piece : pieces) {
+    if (interrupted()) return {};
+    const Positions own = piece.part_of(pose);
+    if (similar(piece.rest, own))
+      result.emplace_back().converged = true;
+    else
+      result.push_back(piece.follower->follow(own));
+  }
+  return result;
+}
+
+Positions put_together(const std::vector<Piece>& pieces, const std::vector<shell::Followed>& followed,
+                       const Positions& pose, FollowedFrame& frame) {
+  Positions base = pose;
+  double squares = 0;
+  frame.converged = true;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const shell::Followed& part = followed[p];
+    frame.converged = frame.converged && part.converged;
+    if (part.base.size() == 0) {
+      ++frame.still;
+      continue;
+    }
+    for (std::size_t v = 0; v < pieces[p].vertices.size(); ++v)
+      base.col(pieces[p].vertices[v]) = part.base.col(static_cast<Eigen::Index>(v));
+    squares += part.moved_rms * part.moved_rms * static_cast<double>(pieces[p].vertices.size());
+    frame.moved_most = std::max(frame.moved_most, part.moved_most);
+    frame.iterations += part.iterations;
+  }
+  frame.moved_rms = std::sqrt(squares / static_cast<double>(base.cols()));
+  return base;
+}
+
+double length_kept(const shell::Topology& topology, const Positions& rest, const Positions& base) {
+  std::vector<double> kept;
+  for (const shell::Edge& edge : topology.edges) {
+    const auto length = [&](const Positions& x) {
+      return (x.col(edge.vertex[0]) - x.col(edge.vertex[1])).norm();
+    };
+    kept.push_back(length(base) / length(rest));
+  }
+  return median(std::move(kept));
+}
+
+// Everything that the bases depend on beside the pose.
+Hash shells_hash(const wrinkle::BaseSurface& surface, const Positions& rest_positions,
+                 const std::vector<Piece>& pieces) {
+  Hash hash = SolvedCache::question("bases");
+  Hasher hasher(hash);
+  hasher(surface.topology.faces, rest_positions);
+  for (const Piece& piece : pieces) hasher(piece.settings.wavelength);
+  hasher(pieces.front().settings.tension_limit, pieces.front().settings.poisson);
+  return hash;
+}
+
+// Throws Error(bad_input) where the rest shape has another unit than the motion: no cloth is stretched, or
+// shrinks, by that much everywhere and always.
+void check_scale(const wrinkle::BaseSurface& surface, const std::vector<Positions>& bases) {
+  constexpr double most = 10;
+  std::vector<double> stretch;
+  for (const Positions& base : bases)
+    for (std::size_t f = 0; f < surface.rest.size(); ++f) {
+      const shell::Principal strain =
+          shell::principal_strain(surface.rest[f], shell::corners_of(surface.topology.faces[f], base));
+      stretch.push_back(std::sqrt(std::max(1 + strain.value[0], 0.0)));
+    }
+  const double middle = median(std::move(stretch));
+  if (middle > 1 / most && middle < most) return;
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format("the model in motion is {:.3g} times as large as its rest shape, and both should be "
+                  "in metres: another --rest, or --units for its file, is wanted",
+                  middle));
+}
+
 }  // namespace
 
 FollowReport follow_model(const FollowRequest& request) {
-  const io::Model model = scene::load_model(request.scene);
   const config::ModelSettings& chosen = request.scene.model;
+  const config::SolveSettings& solve = request.scene.solve;
+  std::optional<shell::Material> fabric;
+  if (!solve.fabric.empty()) fabric = material_of(config::parse_fabric(solve.fabric), {}, {}).material;
+  FollowReport report;
+  report.model = std::make_shared<const io::Model>(scene::load_model(request.scene));
   scene::Animation animation(
-      model, {chosen.clip, chosen.frames_per_second, chosen.rest, chosen.loop, request.scene.limits});
+      *report.model, {chosen.clip, chosen.frames_per_second, chosen.rest, chosen.loop, request.scene.limits});
   scene::select_parts(animation.surface(), request.scene.wrinkles);
   const Surface& surface = animation.surface();
+  report.welded = static_cast<int>(surface.vertex_count());
 
-  FollowReport report;
-  report.picked = config::select_frames(request.frames.empty() ? chosen.frames : request.frames,
-                                        animation.timeline().frame_count);
-  const Cloth cloth = selected(surface);
+  report.cloth = cloth_of(surface);
+  const Cloth& cloth = report.cloth;
+  if (cloth.without_area > 0)
+    log::warn(fmt::format("{} triangles without area are left out", cloth.without_area));
+  if (cloth.cut > 0)
+    log::warn(fmt::format("sheets of cloth are parted at {} edges of three faces or more", cloth.cut));
   WrinkleScene& first = report.first;
-  first.name = chosen.path.stem().string();
+  first.name = chosen.path.empty() ? chosen.garment.stem().string() : chosen.path.stem().string();
   first.chords = false;
-  first.tension_limit = request.tension_limit;
-  first.surface.topology = shell::build_topology(cloth.faces, cloth.from.size());
+  first.tension_limit = solve.tension_limit;
+  first.surface.topology = shell::build_topology(cloth.faces, cloth.welded.size());
   const Positions rest_positions = cloth.places(surface.rest);
   first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
-  first.held.assign(cloth.from.size(), false);
+  first.held.assign(cloth.welded.size(), false);
   report.shells = first.surface.topology.component_count;
 
-  // The thickness is the clip's and not that of the frames picked: a few of them, evenly, are followed as
-  // well.
-  constexpr int samples = 8;
-  std::set<int> wanted, sampled;
-  for (int n = report.picked.front(); n <= report.picked.back(); ++n) wanted.insert(n);
-  const int last = animation.timeline().frame_count;
-  for (int k = 0; k < samples && !request.material; ++k) sampled.insert(1 + k * (last - 1) / (samples - 1));
-  wanted.insert(sampled.begin(), sampled.end());
-
   // Poses one after the other, since an animation remembers what was last finite; bases on all cores.
+  const int last = animation.timeline().frame_count;
+  const auto count = static_cast<std::size_t>(last);
   std::vector<Positions> poses;
   bool simulated = false;
-  std::vector<FollowedFrame> frames;
-  for (const int n : wanted) {
+  for (int n = 1; n <= last; ++n) {
     const scene::Pose pose = animation.pose(n);
     simulated = simulated || !pose.cache.empty();
     poses.push_back(cloth.places(scene::posed(surface, pose)));
-    frames.push_back({.frame = n});
+    report.frames.push_back({.frame = n});
   }
+  const shell::Material material = fabric.value_or(shell::Material{.young = 1e5, .poisson = 0.3});
   const std::vector<Piece> pieces = pieces_of(first.surface.topology, first.surface.rest, rest_positions,
-                                              request, simulated ? 8 : 4, report.follow);
-  std::vector<Positions> bases(poses.size());
-  std::atomic<int> done = 0;
+                                              solve, material.poisson, simulated ? 8 : 4, report.follow);
+  const SolvedCache cache(request.cache);
+  const Hash shells = shells_hash(first.surface, rest_positions, pieces);
+  report.bases.resize(count);
+  int done = 0;
   std::mutex telling;
-  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t n) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
     if (interrupted()) return;
     const double began = wall_seconds();
-    FollowedFrame& frame = frames[n];
-    Positions base = poses[n];
-    double squares = 0;
-    frame.converged = true;
-    for (const Piece& piece : pieces) {
-      if (interrupted()) return;
-      Positions pose(3, static_cast<Eigen::Index>(piece.vertices.size()));
-      for (std::size_t v = 0; v < piece.vertices.size(); ++v)
-        pose.col(static_cast<Eigen::Index>(v)) = poses[n].col(piece.vertices[v]);
-      if (similar(piece.rest, pose)) {
-        ++frame.still;
-        continue;
-      }
-      const shell::Followed followed = piece.follower->follow(pose);
-      for (std::size_t v = 0; v < piece.vertices.size(); ++v)
-        base.col(piece.vertices[v]) = followed.base.col(static_cast<Eigen::Index>(v));
-      squares += followed.moved_rms * followed.moved_rms * static_cast<double>(piece.vertices.size());
-      frame.moved_most = std::max(frame.moved_most, followed.moved_most);
-      frame.iterations += followed.iterations;
-      frame.converged = frame.converged && followed.converged;
-    }
-    frame.moved_rms = std::sqrt(squares / static_cast<double>(base.cols()));
-    std::vector<double> kept;
-    for (const shell::Edge& edge : first.surface.topology.edges) {
-      const auto length = [&](const Positions& x) {
-        return (x.col(edge.vertex[0]) - x.col(edge.vertex[1])).norm();
-      };
-      kept.push_back(length(base) / length(rest_positions));
-    }
-    frame.length_kept = median(std::move(kept));
-    bases[n] = std::move(base);
+    FollowedFrame& frame = report.frames[n];
+    Reuse reuse;
+    const auto followed =
+        cached_bases(cache, reuse, shells, poses[n], [&] { return follow(pieces, poses[n]); });
+    if (interrupted()) return;
+    report.bases[n] = put_together(pieces, followed, poses[n], frame);
+    frame.length_kept = length_kept(first.surface.topology, rest_positions, report.bases[n]);
     frame.seconds = wall_seconds() - began;
-    const int now = ++done;
-    if (request.progress) {
-      const std::lock_guard lock(telling);
-      request.progress(now, static_cast<int>(poses.size()));
-    }
+    const std::lock_guard lock(telling);
+    report.reuse.answers += reuse.answers;
+    report.reuse.saved_s += reuse.saved_s;
+    if (request.progress) request.progress(++done, last);
   });
   report.interrupted = interrupted();
   if (report.interrupted) return report;
-  std::vector<Positions> of_clip;
-  for (std::size_t n = 0; n < bases.size(); ++n) {
-    const int number = frames[n].frame;
-    if (sampled.contains(number)) of_clip.push_back(bases[n]);
-    if (number < report.picked.front() || number > report.picked.back()) continue;
-    report.frames.push_back(frames[n]);
-    report.bases.push_back(std::move(bases[n]));
-  }
+  check_scale(first.surface, report.bases);
+
   first.surface.positions = report.bases.front();
   std::size_t most = 0;
   double edge = 0;
@@ -329,10 +314,19 @@ FollowReport follow_model(const FollowRequest& request) {
       most = piece.vertices.size();
       edge = piece.edge;
     }
-  report.wavelength = request.wavelength.value_or(3 * edge);
-  first.material = request.material
-                       ? *request.material
-                       : material_for(report.wavelength, request.tension_limit, first.surface, of_clip);
+  report.wavelength = request.scene.wrinkles.wavelength > 0 ? request.scene.wrinkles.wavelength : 3 * edge;
+  if (fabric) {
+    first.material = *fabric;
+    return report;
+  }
+  constexpr int samples = 8;  // evenly over the clip
+  std::vector<Positions> of_clip;
+  for (int k = 0; k < samples; ++k) {
+    const auto n = static_cast<std::size_t>(k * (last - 1) / (samples - 1));
+    if (k == 0 || n != static_cast<std::size_t>((k - 1) * (last - 1) / (samples - 1)))
+      of_clip.push_back(report.bases[n]);
+  }
+  first.material = material_for(report.wavelength, solve.tension_limit, first.surface, of_clip);
   return report;
 }
 

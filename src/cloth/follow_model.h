@@ -1,25 +1,22 @@
 // Any animated model → base surfaces that follow it (shell/follow.h), which wrinkles can stand on.
 #pragma once
 
+#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
+#include <memory>
 #include <vector>
 
+#include "cloth/cached_solves.h"
+#include "cloth/cloth_of_surface.h"
 #include "cloth/wrinkle.h"
 #include "config/settings.h"
-#include "shell/follow.h"
+#include "io/model.h"
 
 namespace plisse::cloth {
 
 struct FollowRequest {
-  config::SceneSettings scene;   // model, clip, rest shape, selection of parts
-  std::string frames;            // a selection; empty: all
-  std::optional<double> follow;  // Λ, m; none: 8 mean rest edges of each shell for sequences and caches, 4
-                                 // for skins and morphs; 0: the pose itself
-  double tension_limit = 0.05;   // of shell::StretchingLaw; 0: none
-  std::optional<shell::Material> material;  // none: one whose waves have the `wavelength`
-  std::optional<double> wavelength;         // m, > 0, in the median over the clip; none: 3 mean rest edges
+  config::SceneSettings scene;  // model, clip, rest shape, selection of parts, [solve]; wrinkles.wavelength
+  std::filesystem::path cache;  // folder of bases that were found before (solved_cache.h); empty: none
   std::function<void(int done, int of)> progress;
 };
 
@@ -34,20 +31,24 @@ struct FollowedFrame {
 };
 
 struct FollowReport {
+  std::shared_ptr<const io::Model> model;
+  Cloth cloth;
+  int welded = 0;  // vertices of the model's surface
   // Of the first frame; topology, rest and material are those of all. No chords: facets of a given animation
   // have their full length.
   WrinkleScene first;
-  std::vector<shell::Positions> bases;  // from the first picked frame to the last
+  std::vector<shell::Positions> bases;  // of every frame of the clip
   std::vector<FollowedFrame> frames;    // the same
-  std::vector<int> picked;
   std::size_t shells = 0;
   double follow = 0;      // m: Λ of the largest shell
-  double wavelength = 0;  // m: what a material was chosen for, where none was given
+  double wavelength = 0;  // m: what a material was chosen for, where no fabric was given
+  Reuse reuse;
   bool interrupted = false;
 };
 
-// Throws Error(bad_input) for what is wrong with the model or the selection. Warns, once, of triangles
-// without area, which are left out, and of faces at edges of three or more, which are cut loose.
+// Follows the whole clip, since the cloth of a scene without a fabric depends on all of it. Throws
+// Error(bad_input) for what is wrong with the model, the selection or the fabric. Warns, once, of triangles
+// without area, which are left out, and of edges of three faces or more, at which sheets are parted.
 FollowReport follow_model(const FollowRequest& request);
 
 }  // namespace plisse::cloth

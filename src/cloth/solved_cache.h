@@ -16,6 +16,12 @@
 
 namespace plisse::cloth {
 
+// The results that a run took from the cache.
+struct Reuse {
+  int answers = 0;
+  double saved_s = 0;  // the time of their solves, less the time to look them up
+};
+
 class SolvedCache {
  public:
   // Empty: the cache is off.

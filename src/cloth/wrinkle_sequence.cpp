@@ -137,8 +137,10 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
     if (!field.amplitude.allFinite() || !frame.solved.one_form.allFinite())
       throw Error(ExitCode::check_failed, fmt::format("frame {}: the field is not finite", n));
     frame.max_amplitude = field.amplitude.maxCoeff();
+    frame.taken = wrinkle::take_up(topology, forms, each.scene.material, field);
     report.converged = report.converged && frame.solved.converged;
     if (std::find(picked.begin(), picked.end(), n) != picked.end()) {
+      if (request.on_field) request.on_field(frame, field);
       if (!request.each.output.empty()) {
         const fs::path path = numbered(request.each.output, n);
         write_field(path, surface, field, frame.solved.one_form,

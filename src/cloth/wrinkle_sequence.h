@@ -6,8 +6,11 @@
 
 #include "cloth/wrinkle.h"
 #include "wrinkle/sequence.h"
+#include "wrinkle/take_up.h"
 
 namespace plisse::cloth {
+
+struct WrinkleSequenceFrame;
 
 struct WrinkleSequenceRequest {
   // The options of every frame; its scene is ignored. output and mesh are patterns. levels: 3 where
@@ -21,6 +24,8 @@ struct WrinkleSequenceRequest {
   std::string frames;  // a selection; empty: all. All frames up to the last are solved.
   int fade = 6;        // see wrinkle::SequenceOptions
   double hysteresis = 9;
+  // Takes each field that was asked for, in order.
+  std::function<void(const WrinkleSequenceFrame&, const wrinkle::CoarseField&)> on_field;
   // After every frame: which, of how many.
   std::function<void(int frame, int frames)> progress;
 };
@@ -30,6 +35,7 @@ struct WrinkleSequenceFrame {
   wrinkle::SequenceFrame solved;  // its field is moved into the files
   std::size_t wrinkle_free_faces = 0;
   double max_amplitude = 0;  // metres
+  wrinkle::TakeUp taken;
   double upsample_s = 0;
 };
 

@@ -41,7 +41,7 @@ void model_keys(Row& row) {
       "fabrics ask for; a 'cache' that plisse drape wrote of it moves it.");
   row("pieces", &S::pieces, names(),
       "Panels of the garment, by name, and the seams between them; none named: all.");
-  row("fabric", &S::fabric, fabric_text(),
+  row("fabric", &S::fabric, fabric_text("the panels' own"),
       "The fabric of all the garment's panels, in place of their own; GarmentCode patterns have none.");
   row("clip", &S::clip, name_or_index("the first"), "The animation to play.", {"--clip", "NAME|INDEX"});
   row("fps", &S::frames_per_second, number({0.01, 1000, "24, or a sequence's own"}),
@@ -129,6 +129,41 @@ void bias_keys(Row& row) {
   row("use", &S::use, enumeration<FieldUse>({{"bias", FieldUse::bias}, {"direct", FieldUse::direct}}),
       "How a field is used: its waves start and are then crush's and relax's (bias), or amplitude times "
       "cosine as it was solved, carried by the surface, with the animation's own waves on top (direct).");
+}
+
+enum class SolveMethod { direct, passes };
+
+// Wrinkles that are solved for (docs/wrinkle.md, "Any moving mesh"): a scene with this table is solved before
+// it is drawn.
+struct SolveSettings {
+  bool on = false;  // the scene has the table, or --solve is given
+  SolveMethod method = SolveMethod::direct;
+  std::string fabric;           // as parse_fabric takes it; empty: one whose waves have the wavelength
+  double follow = -1;           // Λ, metres; −1: from the mesh; 0: nothing is handed to waves
+  double tension_limit = 0.05;  // of λ₁, twice the Green strain; 0: none
+};
+
+template <typename Row>
+void solve_keys(Row& row) {
+  using S = SolveSettings;
+  row("method", &S::method,
+      enumeration<SolveMethod>({{"direct", SolveMethod::direct}, {"passes", SolveMethod::passes}}),
+      "What is drawn on the base surface that follows the model: the field that is solved for it (direct), "
+      "or "
+      "the waves of crush and relax against its rest pose, which cost less (passes).",
+      {"--method", "direct|passes"});
+  row("fabric", &S::fabric, fabric_text("one is chosen"),
+      "The cloth; without it one is chosen whose waves have the 'wavelength' of [wrinkles], in the median; "
+      "without that, three mean edges of the rest pose.",
+      {"--fabric", "B,E|NAME"});
+  row("follow", &S::follow,
+      length({0, 1e9, "8 mean edges of sequences and caches, 4 of skins and morphs", -1}),
+      "What is shorter than this in the model's motion is handed to the waves; 0: nothing.",
+      {"--follow", "LENGTH"});
+  row("tension_limit", &S::tension_limit, number({0, 1e6}),
+      "How far stretch counts as the cloth's tension, as twice the Green strain: what a rig stretches beyond "
+      "is none; 0: all counts.",
+      {"--tension-limit", "X"});
 }
 
 enum class RelaxMode { descent, smooth };  // state over time, rule 3

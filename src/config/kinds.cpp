@@ -490,8 +490,8 @@ Kind<std::string> frame_pattern() {
           quoted, true};
 }
 
-Kind<std::string> fabric_text() {
-  return {"fabric", "a name (plisse size --list-fabrics), or \"B,E\"; empty: the panels' own",
+Kind<std::string> fabric_text(std::string_view empty) {
+  return {"fabric", "a name (plisse size --list-fabrics), or \"B,E\"; empty: " + std::string(empty),
           [](const Given& given) { return checked(text_of(given), parse_fabric); }, quoted, true};
 }
 

@@ -78,7 +78,7 @@ Kind<std::filesystem::path> file_or_pattern();  // likewise; a pattern's files a
 Kind<std::string> rest_pose();
 Kind<std::string> word_or_file(std::vector<std::string> words);
 Kind<std::string> frame_pattern();
-Kind<std::string> fabric_text();  // as parse_fabric takes it; empty: none
+Kind<std::string> fabric_text(std::string_view empty);  // as parse_fabric takes it; what "" stands for
 
 // An enumeration's values by the words that files have for them, in the order in which they are listed.
 template <typename Value>

@@ -54,6 +54,18 @@ void check_together(SceneSettings& scene, const Places& given, FileReader& reade
     }
     bias = key;
   }
+  if (scene.solve.on && !bias.empty()) {
+    reader.complain(given.at(fmt::format("bias.{}", bias)),
+                    fmt::format("key '{}': stands beside [solve], whose wrinkles take its place; take one of "
+                                "them out",
+                                bias));
+  }
+  if (!scene.solve.fabric.empty() && scene.wrinkles.wavelength > 0) {
+    reader.complain(
+        given.at("solve.fabric"),
+        "key 'fabric': stands beside 'wavelength' of [wrinkles], but a fabric has waves of its own "
+        "length; take one of them out");
+  }
   if (names_many_files(scene.bias.field) && scene.bias.use != FieldUse::direct) {
     reader.complain(
         given.at("bias.field"),
@@ -98,6 +110,7 @@ SceneSettings parse(std::string_view text, const fs::path& file, bool needs_mode
   for (const Table& table : tables()) {
     all.push_back({table.name, false, [&, title = table.name](const toml::table& values, const auto& at) {
                      if (title == "model") model_table = at;
+                     if (title == "solve") scene.solve.on = true;
                      for (const auto& [name, place] :
                           reader.read(keys_of(title), values, "[" + title + "]", scene))
                        if (!is_empty_array(*values.get(name)))  // [] stands for "not given"
@@ -152,7 +165,8 @@ std::string scene_text(const std::string& model_path, const std::map<std::string
       "are\n"
       "# metres, or texts like \"12 mm\"; angles are degrees; colours are \"#rrggbb\" or [r, g, b], sRGB.\n";
   for (const Table& table : tables()) {
-    text += fmt::format("\n{}[{}]\n", commented(table.doc), table.name);
+    // An empty [solve] has a meaning.
+    text += fmt::format("\n{}{}[{}]\n", commented(table.doc), table.name == "solve" ? "#" : "", table.name);
     for (const SceneKey& key : keys_of(table.name)) {
       text += fmt::format("\n{}", commented(fmt::format("{} Allowed: {}.", key.doc, key.allowed)));
       const auto note = notes.find(key.table + "." + key.name);

@@ -19,6 +19,7 @@ struct SceneSettings {
   ModelSettings model;
   WrinkleSettings wrinkles;
   BiasSettings bias;
+  SolveSettings solve;
   RelaxSettings relax;
   CameraSettings camera;
   LightSettings light;
@@ -53,6 +54,9 @@ void scene_tables(Table& table) {
         "Wrinkles that are there in the rest pose already, and deepen as the cloth is squeezed; at most one "
         "key.",
         [](auto& row) { bias_keys(row); });
+  table("solve", &S::solve,
+        "A scene with this table, even an empty one, is solved before it is drawn (docs/wrinkle.md).",
+        [](auto& row) { solve_keys(row); });
   table("relax", &S::relax,
         "How neighbouring waves come to fit together, and what is carried from frame to frame.",
         [](auto& row) { relax_keys(row); });

@@ -203,4 +203,26 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
   return result;
 }
 
+std::vector<FieldTriangle> field_of_cloth(const Surface& surface, const SolvedClip& clip, std::size_t index,
+                                          const std::vector<double>& mask) {
+  const SolvedClip::Frame& frame = clip.frames.at(index);
+  std::vector<FieldTriangle> result(surface.triangle_count());
+  if (frame.amplitude.empty()) return result;
+  // The cloth as a surface of its own, whose vertices are not welded where its sheets only touch.
+  Surface cloth;
+  cloth.rest = frame.base;
+  cloth.bind_normal.assign(cloth.rest.size(), glm::dvec3(0, 1, 0));
+  std::vector<double> strength;
+  for (std::uint32_t v = 0; v < clip.welded.size(); ++v) {
+    cloth.render_vertices.push_back({v});
+    strength.push_back(mask[clip.welded[v]]);
+  }
+  for (const auto& face : clip.faces) cloth.triangles.insert(cloth.triangles.end(), face.begin(), face.end());
+  build_adjacency(cloth);
+  const std::vector<FieldTriangle> own =
+      field_directly(cloth, rest_frames(cloth), {frame.amplitude, frame.phase}, strength);
+  for (std::size_t f = 0; f < own.size(); ++f) result[clip.triangle[f]] = own[f];
+  return result;
+}
+
 }  // namespace plisse::paint

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/wrinkle_field.h"
+#include "mesh/solved_clip.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 
@@ -45,5 +46,10 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
 // parts.
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
                                           const SurfaceField& field, const std::vector<double>& mask);
+
+// The waves of a cloth that was solved for a frame, carried unchanged: one a triangle of the surface, none
+// where the cloth is not. mask: one a welded vertex of the surface.
+std::vector<FieldTriangle> field_of_cloth(const Surface& surface, const SolvedClip& clip, std::size_t index,
+                                          const std::vector<double>& mask);
 
 }  // namespace plisse::paint

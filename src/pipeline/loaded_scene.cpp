@@ -79,6 +79,7 @@ LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemo
   units.rest_centre = 0.5 * (rest_bounds.low + rest_bounds.high);
   settings.camera = scene::fitted_camera(settings, bounds_, samples);
   take_bias(memory);
+  take_solved(memory);
   state_base_ = start_hash(*this);
 }
 
@@ -121,18 +122,47 @@ void LoadedScene::take_frame_fields(FrameFields fields) {
   field_frame_ = 1;
 }
 
+// Solved waves take the place of the passes' on the parts that were selected, and no other part has any.
+void LoadedScene::take_solved(const scene::InMemory& memory) {
+  solved_ = memory.solved;
+  if (!solved_) return;
+  has_solved_waves_ =
+      std::ranges::any_of(solved_->frames, [](const auto& frame) { return !frame.amplitude.empty(); });
+  if (!has_solved_waves_) return;
+  solved_mask_ = waves.mask;
+  std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
+  waves.field = field_at(posed_at(animation, 1), 1);
+  field_frame_ = 1;
+}
+
+scene::Pose LoadedScene::posed_at(scene::Animation& posing, int frame) const {
+  scene::Pose pose = posing.pose(frame);
+  if (!solved_) return pose;
+  const SolvedClip::Frame& solved = solved_->frames.at(static_cast<std::size_t>(frame - 1));
+  return solved.base.empty() ? pose
+                             : scene::with_cloth(surface(), std::move(pose), solved_->welded, solved.base);
+}
+
+std::vector<FieldTriangle> LoadedScene::field_at(const scene::Pose& pose, int frame) const {
+  if (has_solved_waves_)
+    return paint::field_of_cloth(surface(), *solved_, static_cast<std::size_t>(frame - 1), solved_mask_);
+  return fields_.over(surface(), model, scene::posed(surface(), pose), frame);
+}
+
 void LoadedScene::take_field(int step) {
   const int frame = frame_of_step(step);
-  if (fields_.empty() || frame == field_frame_) return;
-  waves.field = fields_.over(surface(), model, scene::posed(surface(), pose(step)), frame);
+  if (!has_field_a_frame() || frame == field_frame_) return;
+  waves.field = field_at(pose(step), frame);
   field_frame_ = frame;
 }
 
 void LoadedScene::visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const {
-  if (fields_.empty()) return work(waves.field);
+  if (!has_field_a_frame()) return work(waves.field);
   scene::Animation posing(model, choice_of(settings));
-  for (int frame = 1; frame <= posing.timeline().frame_count; ++frame)
-    work(fields_.over(surface(), model, scene::posed(surface(), posing.pose(frame)), frame));
+  for (int frame = 1; frame <= posing.timeline().frame_count; ++frame) {
+    if (has_solved_waves_ && solved_->frames[static_cast<std::size_t>(frame - 1)].amplitude.empty()) continue;
+    work(field_at(posed_at(posing, frame), frame));
+  }
 }
 
 std::vector<glm::dvec3> LoadedScene::painted(const config::PaintSettings& paint) const {
@@ -201,7 +231,7 @@ Hash LoadedScene::state_hash(int step) {
 void LoadedScene::extend(int step) {
   while (static_cast<int>(chain_.size()) < step) {
     const int next = static_cast<int>(chain_.size()) + 1;
-    poses_.push_back(animation.pose(frame_of_step(next)));
+    poses_.push_back(posed_at(animation, frame_of_step(next)));
     Hash hash = chain_.empty() ? state_base_ : chain_.back();
     add_pose(hash, poses_.back());
     chain_.push_back(hash);

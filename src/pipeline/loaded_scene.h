@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "base/hash.h"
@@ -43,7 +44,7 @@ class LoadedScene {
   // Whether every frame has its own field; waves.field is then that of the last step, at first that of
   // frame 1. The pose of the step must be available. Throws Error(bad_input) where the field belongs to
   // another surface than that frame's.
-  bool has_field_a_frame() const { return !fields_.empty(); }
+  bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_; }
   void take_field(int step);
   // The carried field of each frame of the clip, in one call each; no call where there is none.
   void visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const;
@@ -69,7 +70,14 @@ class LoadedScene {
   void take_bias(const scene::InMemory& memory);
   void take_field(const io::WrinkleField& field, const glm::dmat4& to_world, const std::string& name);
   void take_frame_fields(FrameFields fields);
+  void take_solved(const scene::InMemory& memory);
+  // The animation's pose of a frame, or what was solved in its place.
+  scene::Pose posed_at(scene::Animation& posing, int frame) const;
+  std::vector<FieldTriangle> field_at(const scene::Pose& pose, int frame) const;
   FrameFields fields_;  // one a frame, or none
+  std::shared_ptr<const SolvedClip> solved_;
+  std::vector<double> solved_mask_;  // strength of each welded vertex
+  bool has_solved_waves_ = false;
   int field_frame_ = 0;
   paint::Screen screen(const config::PaintStroke& stroke) const;
   void extend(int step);

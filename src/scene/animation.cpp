@@ -486,4 +486,20 @@ std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::siz
   return result;
 }
 
+Pose with_cloth(const Surface& surface, Pose pose, const std::vector<std::uint32_t>& welded,
+                const std::vector<glm::dvec3>& places) {
+  std::vector<glm::dvec3> all = posed(surface, pose), sum(all.size(), glm::dvec3(0));
+  std::vector<int> count(all.size(), 0);
+  for (std::size_t v = 0; v < welded.size(); ++v) {
+    sum[welded[v]] += places[v];
+    ++count[welded[v]];
+  }
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (count[v] > 0) all[v] = sum[v] / static_cast<double>(count[v]);
+  pose.palette.assign(1, glm::dmat4{1});
+  pose.morph_weights.clear();
+  pose.cache = std::move(all);
+  return pose;
+}
+
 }  // namespace plisse::scene

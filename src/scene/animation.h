@@ -69,4 +69,9 @@ class Animation {
 // stride of n gives every n-th vertex only.
 std::vector<glm::dvec3> posed(const Surface& surface, const Pose& pose, std::size_t stride = 1);
 
+// The same pose with vertices of a cloth in other places, metres: `welded` has the surface's vertex of each;
+// where several are one there, it gets their mean.
+Pose with_cloth(const Surface& surface, Pose pose, const std::vector<std::uint32_t>& welded,
+                const std::vector<glm::dvec3>& places);
+
 }  // namespace plisse::scene

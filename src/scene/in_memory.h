@@ -6,6 +6,7 @@
 
 #include "io/model.h"
 #include "io/wrinkle_field.h"
+#include "mesh/solved_clip.h"
 
 namespace plisse::scene {
 
@@ -13,6 +14,7 @@ struct InMemory {
   std::shared_ptr<const io::Model> model;  // in place of [model] path or garment, validated; null: none
   // In place of [bias] field, metres, y up: one of the rest pose, or one a frame; null: none.
   std::shared_ptr<const std::vector<io::WrinkleField>> fields;
+  std::shared_ptr<const SolvedClip> solved;  // of this model; null: nothing was
 };
 
 }  // namespace plisse::scene

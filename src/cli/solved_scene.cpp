@@ -1,0 +1,72 @@
+#include "cli/solved_scene.h"
+
+#include <fmt/format.h>
+
+#include "base/log.h"
+#include "base/progress.h"
+#include "cloth/solve_scene.h"
+
+namespace plisse::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json to_json(const cloth::SolvedFrame& frame) {
+  return {{"frame", frame.followed.frame},
+          {"moved_rms_m", frame.followed.moved_rms},
+          {"moved_most_m", frame.followed.moved_most},
+          {"length_kept", frame.followed.length_kept},
+          {"compression", frame.taken.compression},
+          {"untaken", frame.taken.untaken},
+          {"waves", frame.waves},
+          {"wavelength_m", frame.taken.wavelength},
+          {"max_amplitude_m", frame.max_amplitude},
+          {"converged", frame.converged},
+          {"reason", frame.reason},
+          {"follow_s", frame.followed.seconds},
+          {"solve_s", frame.solve_s}};
+}
+
+}  // namespace
+
+SolvedRun SolveArguments::run(const config::SceneSettings& scene, const CommonArguments& common) const {
+  SolvedRun run;
+  if (!scene.solve.on) return run;
+  cloth::SolvedScene solved;
+  {
+    Progress progress(Progress::style_for_stderr(common.quiet()));
+    solved = cloth::solve_scene({scene, cache_.folder(), [&](std::string_view what, int done, int of) {
+                                   progress.update(done, of, std::string(what));
+                                 }});
+  }
+  run.memory = std::move(solved.memory);
+  run.interrupted = solved.interrupted;
+  if (run.interrupted) return run;
+  ordered_json frames = ordered_json::array();
+  int unconverged = 0;
+  for (const cloth::SolvedFrame& frame : solved.frames) {
+    frames.push_back(to_json(frame));
+    if (frame.converged) continue;
+    run.converged = false;
+    if (++unconverged <= 10)
+      log::warn(fmt::format("frame {}: NOT CONVERGED: {}; it is drawn as it is", frame.followed.frame,
+                            frame.reason));
+  }
+  if (unconverged > 10) log::warn(fmt::format("{} frames in all did not converge", unconverged));
+  const std::string handed =
+      solved.follow > 0 ? fmt::format("what is shorter than {:.3g} m", solved.follow) : "nothing";
+  log::notice(fmt::format("{} vertices in {} shell{}: {} is handed to waves; cloth of {:.3g} mm",
+                          solved.vertices, solved.shells, solved.shells == 1 ? "" : "s", handed,
+                          1e3 * solved.thickness));
+  run.report = {{"vertices", solved.vertices},
+                {"faces", solved.faces},
+                {"shells", solved.shells},
+                {"follow_m", solved.follow},
+                {"thickness_m", solved.thickness},
+                {"converged", run.converged},
+                {"frames", frames}};
+  run.report.update(reused_json(solved.reuse.answers, solved.reuse.saved_s));
+  return run;
+}
+
+}  // namespace plisse::cli

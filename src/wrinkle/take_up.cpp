@@ -1,0 +1,44 @@
+#include "wrinkle/take_up.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace plisse::wrinkle {
+
+TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& forms,
+               const shell::Material& material, const CoarseField& field) {
+  TakeUp result;
+  double area = 0, all = 0, taken = 0, height = 0;
+  std::vector<std::pair<double, double>> frequencies;  // |ω|, weight
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    const PrincipalStrain strain = principal_strain(forms[f]);
+    const double across =
+                     std::max(-(strain.compression + material.poisson * std::max(strain.tension, 0.0)), 0.0),
+                 along = std::max(-strain.tension, 0.0), face = forms[f].rest.area;
+    const auto& t = topology.faces[f];
+    const Eigen::Vector3d a(field.amplitude[t[0]], field.amplitude[t[1]], field.amplitude[t[2]]),
+        phase(field.phase[f][0], field.phase[f][1], field.phase[f][2]);
+    const double frequency = (forms[f].rest.gradients * phase).norm();
+    const double square = (a.squaredNorm() + a.sum() * a.sum()) / 12;  // mean of a² over the face
+    const double waves = square * frequency * frequency;
+    area += face;
+    all += face * (across + along);
+    taken += face * std::min(waves / 2, across);
+    if (!(waves > 0)) continue;
+    frequencies.emplace_back(frequency, face * waves);
+    height += face * waves;
+  }
+  result.compression = area > 0 ? all / area : 0;
+  result.untaken = all > 0 ? 1 - taken / all : 0;
+  std::sort(frequencies.begin(), frequencies.end());
+  double below = 0;
+  for (const auto& [frequency, weight] : frequencies) {
+    below += weight;
+    result.wavelength = 2 * std::numbers::pi / frequency;
+    if (below >= height / 2) break;
+  }
+  return result;
+}
+
+}  // namespace plisse::wrinkle
