@@ -34,6 +34,11 @@ FileKind kind_of(const std::filesystem::path& path) {
   return FileKind::other;
 }
 
+// STL states nothing. Programs that write it (CAD, slicers) have z up.
+bool has_z_up(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".stl";
+}
+
 // Unit and up axis as a file states them.
 struct Space {
   double metres_per_unit = 1;
@@ -162,7 +167,7 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   AssimpScene from{*scene, kind_of(path), path, {}, {}, {}, {}, {}};
   const Space space = from.kind == FileKind::fbx       ? space_of_fbx(*scene)
                       : from.kind == FileKind::collada ? space_of_collada(path)
-                                                       : Space{};
+                                                       : Space{1, has_z_up(path) ? "z" : "y"};
   model.metres_per_unit = options.metres_per_unit.value_or(space.metres_per_unit);
   model.up = options.up.empty() ? space.up : options.up;
   glm::dmat4 world = file_to_world(model.up, model.metres_per_unit);

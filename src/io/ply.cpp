@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "mesh/cut_polygon.h"
@@ -67,8 +68,9 @@ const Item* find_named(const std::vector<Item>& items, std::string_view name) {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted)
-      : bytes_(bytes), wanted_(wanted) {
+  Reader(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted,
+         const std::vector<std::string_view>& unchecked)
+      : bytes_(bytes), wanted_(wanted), unchecked_(unchecked) {
     ply_.file = file;
   }
 
@@ -81,7 +83,7 @@ class Reader {
  private:
   struct Column {
     Type count;  // of a list
-    bool wanted;
+    bool wanted, unchecked;
   };
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -93,7 +95,9 @@ class Reader {
 
   // --- header
   std::string_view next_line() {
-    const std::size_t end = bytes_.find('\n', at_);
+    // "ply" and its line end begin the file: with a carriage return alone, all lines of the header have that.
+    if (at_ == 0 && bytes_.size() > 4 && bytes_[3] == '\r' && bytes_[4] != '\n') line_end_ = '\r';
+    const std::size_t end = bytes_.find(line_end_, at_);
     if (end == std::string_view::npos) fail("the header does not end; a line 'end_header' is missing");
     const std::string_view line = bytes_.substr(at_, end - at_);
     at_ = end + 1;
@@ -136,11 +140,16 @@ class Reader {
         const std::string_view name = words.back();
         ply_.elements.back().properties.push_back(
             {std::string(name), type_named(words[words.size() - 2]), list});
-        columns_.back().push_back(
-            {list ? type_named(words[2]) : Type::uint8,
-             wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end()});
+        columns_.back().push_back({list ? type_named(words[2]) : Type::uint8,
+                                   wanted_.empty() || is_in(wanted_, name) || is_in(unchecked_, name),
+                                   is_in(unchecked_, name)});
       } else {
-        fail_line(fmt::format("'{}' is no line of a PLY header", line.substr(0, 80)));
+        // A line that says how the data lies cannot be left out.
+        if (words[0] == "format" || words[0] == "element" || words[0] == "property")
+          fail_line(fmt::format("'{}' is no line of a PLY header", line.substr(0, 80)));
+        log::warn_once("header " + ply_.file,
+                       fmt::format("{}:{}: '{}' is no line of a PLY header; it is left out", ply_.file, line_,
+                                   line.substr(0, 80)));
       }
     }
     if (!has_format) fail("the header has no 'format'");
@@ -187,6 +196,10 @@ class Reader {
     for (double k = 0; k < length; ++k) {
       const double value = number(property.type, where);
       if (!column.wanted) continue;
+      if (column.unchecked) {
+        property.values.push_back(value);
+        continue;
+      }
       if (!std::isfinite(value)) fail(fmt::format("{}: the value is not finite", where()));
       property.values.push_back(value);
     }
@@ -217,8 +230,13 @@ class Reader {
   }
 
   std::string_view bytes_;
-  const std::vector<std::string_view>& wanted_;
+  static bool is_in(const std::vector<std::string_view>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
+  const std::vector<std::string_view>&wanted_, &unchecked_;
   std::size_t at_ = 0, line_ = 0;
+  char line_end_ = '\n';
   bool ascii_ = true, swapped_ = false;
   Ply ply_;
   std::vector<std::vector<Column>> columns_;  // of each element, as its properties
@@ -303,19 +321,24 @@ const std::vector<double>& Ply::lists(std::string_view name, std::string_view pr
   return found->values;
 }
 
-std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) const {
+namespace {
+
+// Calls take(face, vertex of a corner in the face's list, three corners) for every triangle.
+template <typename Start, typename Take>
+void for_each_triangle(const Ply& ply, Ply::Polygons polygons, const Start& start, const Take& take) {
+  using Polygons = Ply::Polygons;
+  const std::string& file = ply.file;
   const auto bad = [&](const std::string& what) {
     return Error(ExitCode::bad_input, fmt::format("{}: {}", file, what));
   };
-  if (!find("face"))
-    throw bad(find("tristrips") ? "it holds triangle strips; export its faces as polygons"
-                                : "has no element 'face': a cloud of points has no surface to wrinkle");
-  const PlyProperty* corners = element("face").find({"vertex_indices", "vertex_index"});
+  if (!ply.find("face"))
+    throw bad(ply.find("tristrips") ? "it holds triangle strips; export its faces as polygons"
+                                    : "has no element 'face': a cloud of points has no surface to wrinkle");
+  const PlyProperty* corners = ply.element("face").find({"vertex_indices", "vertex_index"});
   if (!corners || !corners->list) throw bad("element 'face' has no list 'vertex_indices'");
-  const auto count = static_cast<double>(element("vertex").count);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto count = static_cast<double>(ply.element("vertex").count);
   std::vector<glm::dvec3> positions, outline;
-  triangles.reserve(corners->ends.size());
+  start(corners->ends.size());
   for (std::size_t f = 0, begin = 0; f < corners->ends.size(); begin = corners->ends[f++]) {
     const std::size_t end = corners->ends[f];
     if (end - begin < 3 || (end - begin > 3 && polygons == Polygons::refused))
@@ -329,24 +352,50 @@ std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) cons
       return static_cast<std::uint32_t>(corner);
     };
     if (end - begin == 3 || polygons == Polygons::fans) {
-      for (std::size_t i = begin + 1; i + 1 < end; ++i) triangles.push_back({id(begin), id(i), id(i + 1)});
+      for (std::uint32_t i = 1; begin + i + 1 < end; ++i)
+        take(f, {id(begin), id(begin + i), id(begin + i + 1)}, {0U, i, i + 1});
       continue;
     }
-    if (positions.empty()) positions = vectors("vertex");
+    if (positions.empty()) positions = ply.vectors("vertex");
     outline.clear();
     for (std::size_t i = begin; i < end; ++i) outline.push_back(positions[id(i)]);
-    for (const auto& [a, b, c] : cut_polygon(outline))
-      triangles.push_back({id(begin + a), id(begin + b), id(begin + c)});
+    for (const auto& t : cut_polygon(outline))
+      take(f, {id(begin + t[0]), id(begin + t[1]), id(begin + t[2])}, t);
   }
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> Ply::triangles(Polygons polygons) const {
+  using Three = std::array<std::uint32_t, 3>;
+  std::vector<Three> triangles;
+  for_each_triangle(
+      *this, polygons, [&](std::size_t faces) { triangles.reserve(faces); },
+      [&](std::size_t, const Three& vertices, const Three&) { triangles.push_back(vertices); });
   return triangles;
 }
 
-Ply parse_ply(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted) {
-  return Reader(bytes, file, wanted).read();
+std::vector<Ply::FaceTriangle> Ply::face_triangles(Polygons polygons) const {
+  using Three = std::array<std::uint32_t, 3>;
+  std::vector<FaceTriangle> triangles;
+  for_each_triangle(
+      *this, polygons, [&](std::size_t faces) { triangles.reserve(faces); },
+      [&](std::size_t face, const Three& vertices, const Three& corners) {
+        triangles.push_back({static_cast<std::uint32_t>(face), vertices, corners});
+      });
+  return triangles;
 }
 
-Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted) {
-  return parse_ply(read_whole_text(path), path.string(), wanted);
+Ply parse_ply(std::string_view bytes, const std::string& file, const std::vector<std::string_view>& wanted,
+              const std::vector<std::string_view>& unchecked) {
+  return Reader(bytes, file, wanted, unchecked).read();
+}
+
+Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted,
+             const std::vector<std::string_view>& unchecked) {
+  std::string bytes = read_whole_text(path);
+  if (!bytes.starts_with("ply")) bytes = utf8_of_file(std::move(bytes));
+  return parse_ply(bytes, path.string(), wanted, unchecked);
 }
 
 void write_ply(const std::filesystem::path& path, const Ply& ply, PlyFormat format) {

@@ -57,16 +57,27 @@ struct Ply {
   // The corners of the faces, numbers of vertices from 0. Polygons: as ObjWanted::Polygons (io/obj.h).
   enum class Polygons { fans, cut, refused };
   std::vector<std::array<std::uint32_t, 3>> triangles(Polygons polygons) const;
+  // The same with what faces say of their corners: the face of each triangle, and where its corners stand in
+  // the face's list.
+  struct FaceTriangle {
+    std::uint32_t face = 0;
+    std::array<std::uint32_t, 3> vertex{}, corner{};
+  };
+  std::vector<FaceTriangle> face_triangles(Polygons polygons) const;
 };
 
-// ASCII or binary of either byte order, version 1.0. Values of properties whose names are not in `wanted` are
-// ignored, whatever they are; if it is empty all are read. The count of a list may have any type, but must be
-// a whole number. Throws Error(bad_input): no PLY, a header that is invalid or declares more than the file
-// contains, a text that is no number, a wanted value that is not finite; with file and line, or element and
-// item.
-Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted = {});
+// ASCII or binary of either byte order, version 1.0; text may also be UTF-16, lines of the header may end
+// with a carriage return alone. Lines of the header that no version knows are left out with a warning. Values
+// of properties whose names are not in `wanted` are ignored, whatever they are; if it is empty all are read.
+// The count of a list may have any type, but must be a whole number. Throws Error(bad_input): no PLY, a
+// header that is invalid or declares more than the file contains, a text that is no number, a wanted value
+// that is not finite; with file and line, or element and item.
+// Values of `unchecked` names are read as well, and need not be finite.
+Ply read_ply(const std::filesystem::path& path, const std::vector<std::string_view>& wanted = {},
+             const std::vector<std::string_view>& unchecked = {});
 Ply parse_ply(std::string_view bytes, const std::string& file,
-              const std::vector<std::string_view>& wanted = {});
+              const std::vector<std::string_view>& wanted = {},
+              const std::vector<std::string_view>& unchecked = {});
 
 // Binary little-endian, or text with nine digits of a double and six of a float. Whole or not at all. Throws
 // Error(no_output).

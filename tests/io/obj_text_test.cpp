@@ -119,7 +119,7 @@ TEST_F(ObjText, OpacityPictures) {
   write_picture("cloth.png", {10, 20, 30, 255, 40, 50, 60, 255});
   write("m.mtl",
         "newmtl holes\nKd 1 0 0\nmap_d holes.png\nnewmtl both\nmap_d holes.png\nmap_Kd cloth.png\n"
-        "newmtl glass\nmap_d glass.png\nnewmtl none\nKd 0 1 0\nmap_d gone.png\n");
+        "newmtl glass\nmap_d glass.png\nnewmtl none\nKd 0 1 0\nmap_d no_holes.png\n");
   const Model model = read("mtllib m.mtl\n" + quad_uv + "usemtl holes\nf 1/1 2/2 3/3\n");
   const auto picture = [&](const std::string& name) {
     return model.textures.at(static_cast<std::size_t>(material(model, name).base_colour_texture)).image.rgba;
@@ -133,7 +133,7 @@ TEST_F(ObjText, OpacityPictures) {
   EXPECT_THAT(picture("glass"), ElementsAre(255, 255, 255, 128, 255, 255, 255, 255));
   EXPECT_EQ(material(model, "none").alpha, Material::Alpha::opaque);
   EXPECT_EQ(material(model, "none").base_colour_texture, -1);
-  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("'gone.png'")));
+  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("'no_holes.png'")));
 }
 
 TEST_F(ObjText, ColoursOfVertices) {
