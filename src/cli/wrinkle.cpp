@@ -48,7 +48,7 @@ struct Arguments {
     options.add(
         "--frames", frames, "RANGES",
         described("Of a sequence of base surfaces (base_####.ply, or base.ply with --cache) or a model: "
-                  "which; default all. Of base surfaces those before are solved on the way."));
+                  "which; default all. Key frames of all are solved, whichever are asked for."));
     options.add(
         "--follow", follow, "LENGTH",
         described("Of a model: what is shorter than this is handed to the waves; 0: nothing. Default: 8 mean "
@@ -71,9 +71,9 @@ struct Arguments {
     options.add("--fade", fade, "FRAMES",
                 described("Over a sequence: how many frames show both fields where the number of waves "
                           "changes (default 6)"));
-    options.add("--hysteresis", hysteresis, "X",
-                described("Over a sequence: how many times as much as the new number of waves the old one "
-                          "must cost before it changes (default 9)"));
+    options.add("--quality", quality, "draft|final",
+                described("Over a sequence: frames between keys are interpolated (draft), or also solved "
+                          "(final, the default)"));
     options.add("--example", example, "NAME",
                 "A built-in scene instead; 'plisse drape --list-examples' names them");
     options.add("--vertices", vertices, "N", "About how many vertices an example's mesh has");
@@ -132,7 +132,7 @@ struct Arguments {
 
   CommonArguments common;
   CacheArguments solved;
-  std::string input, frames, cache, fade = "6", hysteresis = "9", example, vertices, seed, output, mesh,
+  std::string input, frames, cache, fade = "6", quality = "final", example, vertices, seed, output, mesh,
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
                                     iterations = "500", cost, follow, tension_limit, fabric, wavelength, rest,
                                     clip;
@@ -264,6 +264,22 @@ ordered_json to_json(const cloth::WrinkleReport& report) {
           {"trace", trace}};
 }
 
+std::string_view name_of(wrinkle::FrameKind kind) {
+  switch (kind) {
+    case wrinkle::FrameKind::flat:
+      return "flat";
+    case wrinkle::FrameKind::anchor:
+      return "anchor";
+    case wrinkle::FrameKind::key:
+      return "key";
+    case wrinkle::FrameKind::between:
+      return "between";
+    case wrinkle::FrameKind::still:
+      break;
+  }
+  return "still";
+}
+
 ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
   ordered_json outputs = ordered_json::array(), frames = ordered_json::array(),
                changes = ordered_json::array();
@@ -275,31 +291,43 @@ ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
       changes.push_back({{"frame", frame.frame}, {"from", *solved.waves_before}, {"to", solved.waves}});
     frames.push_back({{"frame", frame.frame},
                       {"waves", solved.waves},
+                      {"kind", name_of(solved.kind)},
                       {"share", solved.share},
-                      {"phase_step_rad", solved.phase_step},
+                      {"strain_change", solved.change},
+                      {"phase_step_rad", frame.phase_step ? ordered_json(*frame.phase_step) : ordered_json()},
                       {"max_amplitude_m", frame.max_amplitude},
                       {"compression", frame.taken.compression},
                       {"untaken", frame.taken.untaken},
                       {"wavelength_m", frame.taken.wavelength},
                       {"wrinkle_free_faces", frame.wrinkle_free_faces},
                       {"energy_J", solved.energy},
-                      {"kkt_scaled", solved.kkt},
+                      {"excess_over_alone", solved.excess ? ordered_json(*solved.excess) : ordered_json()},
                       {"iterations", solved.iterations},
                       {"converged", solved.converged},
                       {"reason", solved.reason},
                       {"solve_s", solved.solve_s},
                       {"upsample_s", frame.upsample_s}});
   }
-  return {{"vertices", report.vertices},       {"faces", report.faces}, {"converged", report.converged},
-          {"interrupted", report.interrupted}, {"changes", changes},    {"frames", frames},
-          {"wall_s", report.wall_s},           {"outputs", outputs}};
+  return {{"vertices", report.vertices},
+          {"faces", report.faces},
+          {"converged", report.converged},
+          {"interrupted", report.interrupted},
+          {"keys", report.keys},
+          {"spans", report.spans},
+          {"changes", changes},
+          {"frames", frames},
+          {"wall_s", report.wall_s},
+          {"outputs", outputs}};
 }
 
 cloth::WrinkleSequenceRequest sequence_request_of(const Arguments& arguments, cloth::WrinkleRequest each) {
   cloth::WrinkleSequenceRequest request;
   request.each = std::move(each);
   request.fade = whole_number("--fade", arguments.fade, 0, 1000);
-  request.hysteresis = number_in("--hysteresis", arguments.hysteresis, 1, 1e6);
+  if (arguments.quality != "draft" && arguments.quality != "final")
+    throw Error(ExitCode::bad_input,
+                fmt::format("--quality: '{}' is neither draft nor final", arguments.quality));
+  request.quality = arguments.quality == "draft" ? wrinkle::Quality::draft : wrinkle::Quality::final;
   return request;
 }
 
@@ -309,7 +337,9 @@ cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
   cloth::WrinkleSequenceReport report;
   {
     Progress progress(Progress::style_for_stderr(arguments.common.quiet()));
-    request.progress = [&](int frame, int frames) { progress.update(frame, frames, "solved"); };
+    request.progress = [&](bool keys, int done, int of) {
+      progress.update(done, of, keys ? "key frames solved" : "solved");
+    };
     report = cloth::wrinkle_sequence(request);
   }
   for (const cloth::WrinkleSequenceFrame& frame : report.frames) {
@@ -508,7 +538,7 @@ int run_costs(Arguments arguments, const cloth::WrinkleRequest& request) {
                          {"--frames", !arguments.frames.empty()},
                          {"--cache", !arguments.cache.empty()},
                          {"--fade", arguments.fade != "6"},
-                         {"--hysteresis", arguments.hysteresis != "9"},
+                         {"--quality", arguments.quality != "final"},
                          {"--mesh", !arguments.mesh.empty()},
                          {"--evaluate", !arguments.evaluate.empty()},
                          {"--cache-dir", arguments.solved.given()}},

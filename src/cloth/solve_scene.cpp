@@ -138,7 +138,9 @@ SolvedScene solve_scene(const SolveRequest& request) {
     take(found, clip->frames[index], solved.frames[index]);
     if (cache.on()) keep(cache, question(frame.frame), found, std::max(found.solve_s, worth_keeping_s));
   };
-  fields.progress = [&](int frame, int frames) { told("solved", frame, frames); };
+  fields.progress = [&](bool keys, int done, int of) {
+    told(keys ? "key frames solved" : "solved", done, of);
+  };
   solved.interrupted = wrinkle_sequence(fields).interrupted;
   return solved;
 }

@@ -1,6 +1,7 @@
 #include "cloth/wrinkle_sequence.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <set>
@@ -114,52 +115,87 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   wrinkle::SequenceOptions options;
   options.field = each.options;
   options.fade = request.fade;
-  options.hysteresis = request.hysteresis;
-  wrinkle::FieldSequence sequence(topology, model_of(each),
-                                  each.pin_held ? each.scene.held : std::vector<bool>{}, options);
+  options.quality = request.quality;
   WrinkleSequenceReport report;
   std::set<std::string> told;  // kinds of faults
   report.vertices = topology.vertex_count;
   report.faces = topology.faces.size();
-  for (int n = bases.from(); n <= picked.back() && !report.interrupted; ++n) {
-    each.scene = bases.read(n);
-    const wrinkle::BaseSurface& surface = each.scene.surface;
-    const auto forms = forms_of(each);
-    for (const wrinkle::BaseFault& fault : wrinkle::base_faults(topology, forms))
-      if (told.insert(fault.kind).second)  // once, or long clips would drown in them
-        log::warn(fmt::format("frame {}: {}", n, fault.text));
-    const auto free = wrinkle::wrinkle_free_faces(forms, topology, each.rule);
+  const auto request_of = [&](int n) {
+    WrinkleRequest one = each;
+    one.scene = bases.read(n);
+    return one;
+  };
+  const auto clip_frame = [&](const WrinkleRequest& one) {
+    wrinkle::ClipFrame frame{forms_of(one), {}};
+    frame.wrinkle_free = wrinkle::wrinkle_free_faces(frame.forms, topology, one.rule);
+    return frame;
+  };
+  wrinkle::Clip clip{topology, model_of(each), each.pin_held ? each.scene.held : std::vector<bool>{},
+                     bases.last() - bases.from() + 1,
+                     [&](int index) { return clip_frame(request_of(bases.from() + index)); }};
+  const wrinkle::FieldSequence sequence(std::move(clip), options, [&](int done, int of) {
+    if (request.progress) request.progress(true, done, of);
+  });
+  for (const int key : sequence.keys()) report.keys.push_back(bases.from() + key);
+  report.spans = sequence.spans();
+
+  // Solved some at a time on all cores, written in order.
+  constexpr std::size_t block = 16;
+  struct Ready {
+    WrinkleRequest request;
+    wrinkle::ClipFrame forms;
     WrinkleSequenceFrame frame;
-    frame.frame = n;
-    frame.solved = sequence.next(forms, free);
-    frame.wrinkle_free_faces = static_cast<std::size_t>(std::count(free.begin(), free.end(), true));
-    const wrinkle::CoarseField field = std::move(frame.solved.field);
-    if (!field.amplitude.allFinite() || !frame.solved.one_form.allFinite())
-      throw Error(ExitCode::check_failed, fmt::format("frame {}: the field is not finite", n));
-    frame.max_amplitude = field.amplitude.maxCoeff();
-    frame.taken = wrinkle::take_up(topology, forms, each.scene.material, field);
-    report.converged = report.converged && frame.solved.converged;
-    if (std::find(picked.begin(), picked.end(), n) != picked.end()) {
+  };
+  wrinkle::CoarseField before;
+  for (std::size_t begin = 0; begin < picked.size() && !report.interrupted; begin += block) {
+    std::vector<Ready> ready(std::min(block, picked.size() - begin));
+    tbb::parallel_for(std::size_t{0}, ready.size(), [&](std::size_t i) {
+      if (interrupted()) return;
+      const int n = picked[begin + i];
+      ready[i].request = request_of(n);
+      ready[i].forms = clip_frame(ready[i].request);
+      ready[i].frame.frame = n;
+      ready[i].frame.solved = sequence.solve(n - bases.from());
+    });
+    report.interrupted = interrupted();
+    for (std::size_t i = 0; i < ready.size() && !report.interrupted; ++i) {
+      const auto& [one, forms, solved_frame] = ready[i];
+      WrinkleSequenceFrame frame = solved_frame;
+      const int n = frame.frame;
+      for (const wrinkle::BaseFault& fault : wrinkle::base_faults(topology, forms.forms))
+        if (told.insert(fault.kind).second)  // once, or long clips would drown in them
+          log::warn(fmt::format("frame {}: {}", n, fault.text));
+      frame.wrinkle_free_faces =
+          static_cast<std::size_t>(std::count(forms.wrinkle_free.begin(), forms.wrinkle_free.end(), true));
+      wrinkle::CoarseField field = std::move(frame.solved.field);
+      if (!field.amplitude.allFinite() || !frame.solved.one_form.allFinite())
+        throw Error(ExitCode::check_failed, fmt::format("frame {}: the field is not finite", n));
+      frame.max_amplitude = field.amplitude.maxCoeff();
+      frame.taken = wrinkle::take_up(topology, forms.forms, one.scene.material, field);
+      report.converged = report.converged && frame.solved.converged;
+      if (!report.frames.empty() && report.frames.back().frame == n - 1)
+        frame.phase_step = wrinkle::phase_step(topology, forms.forms, before, field);
       if (request.on_field) request.on_field(frame, field);
       if (!request.each.output.empty()) {
         const fs::path path = numbered(request.each.output, n);
-        write_field(path, surface, field, frame.solved.one_form,
+        write_field(path, one.scene.surface, field, frame.solved.one_form,
                     frame.solved.converged ? "" : frame.solved.reason);
         report.outputs.push_back({{path, "field"}, n});
       }
       if (!request.each.mesh.empty()) {
         const double upsampling = wall_seconds();
-        const WrinkleMesh mesh = mesh_of(each, forms, field);
+        const WrinkleMesh mesh = mesh_of(one, forms.forms, field);
         report.levels = mesh.levels;
         frame.upsample_s = wall_seconds() - upsampling;
         const fs::path path = numbered(request.each.mesh, n);
         io::write_mesh(path, mesh.file);
         report.outputs.push_back({{path, "mesh"}, n});
       }
+      before = std::move(field);
+      report.frames.push_back(std::move(frame));
+      if (request.progress)
+        request.progress(false, static_cast<int>(report.frames.size()), static_cast<int>(picked.size()));
     }
-    report.frames.push_back(std::move(frame));
-    if (request.progress) request.progress(n, picked.back());
-    report.interrupted = interrupted();
   }
   report.wall_s = wall_seconds() - began;
   return report;

@@ -21,18 +21,20 @@ struct WrinkleSequenceRequest {
   // Or in memory: the places of each.scene's vertices from frame `first` on, in place of both.
   std::vector<shell::Positions> poses;
   int first = 1;
-  std::string frames;  // a selection; empty: all. All frames up to the last are solved.
+  std::string frames;  // a selection; empty: all. Fields are the same in any selection.
   int fade = 6;        // see wrinkle::SequenceOptions
-  double hysteresis = 9;
+  wrinkle::Quality quality = wrinkle::Quality::final;
   // Takes each field that was asked for, in order.
   std::function<void(const WrinkleSequenceFrame&, const wrinkle::CoarseField&)> on_field;
-  // After every frame: which, of how many.
-  std::function<void(int frame, int frames)> progress;
+  // After every key frame, and then after every frame: how many are done, of how many.
+  std::function<void(bool keys, int done, int of)> progress;
 };
 
 struct WrinkleSequenceFrame {
   int frame = 1;
   wrinkle::SequenceFrame solved;  // its field is moved into the files
+  // Radians, see wrinkle::phase_step; none where the frame before was not asked for.
+  std::optional<double> phase_step;
   std::size_t wrinkle_free_faces = 0;
   double max_amplitude = 0;  // metres
   wrinkle::TakeUp taken;
@@ -42,7 +44,9 @@ struct WrinkleSequenceFrame {
 struct WrinkleSequenceReport {
   std::size_t vertices = 0, faces = 0;
   int levels = 0;                            // of the meshes
-  std::vector<WrinkleSequenceFrame> frames;  // from the first to the last that was asked for
+  std::vector<WrinkleSequenceFrame> frames;  // that were asked for
+  std::vector<int> keys;                     // of the whole clip
+  std::size_t spans = 0;
   struct Output : WrinkleOutput {
     int frame = 1;
   };

@@ -181,12 +181,20 @@ double FaceEnergy::magnitude(const LocalVector& x) const {
           quartic_ * t.means.fourth * t.pp * t.pp);
 }
 
-void FaceEnergy::metric(const LocalVector& x, LocalMatrix& metric) const {
-  const Means means(x.head<3>());
+double FaceEnergy::metric_weight(const LocalVector& x, double second_mean) const {
   const double pp = x.tail<2>().squaredNorm(), gg = (gradient_ * x.head<3>()).squaredNorm();
   // The base surface's stress along dφ, what amplitudes take up, and s₀, which they ought to.
   const double along = pp > 0 ? (stress_ * x.tail<2>()).norm() / std::sqrt(pp) : 0;
-  const double weight = 2 * scale_ * (along + square_ * (means.second * pp / 2 + gg / 2 + compression_));
+  return 2 * scale_ * (along + square_ * (second_mean * pp / 2 + gg / 2 + compression_));
+}
+
+double FaceEnergy::taken_up(const LocalVector& x) const {
+  return metric_weight(x, Means(x.head<3>()).second) * x.tail<2>().squaredNorm();
+}
+
+void FaceEnergy::metric(const LocalVector& x, LocalMatrix& metric) const {
+  const Means means(x.head<3>());
+  const double pp = x.tail<2>().squaredNorm(), weight = metric_weight(x, means.second);
   // Where amplitudes are next to nothing phases still change no faster than their neighbours'.
   constexpr double least = 1e-2;
   const double height = means.second + least * 2 * compression_ / (pp + 1e-6 * gradient_.squaredNorm());

@@ -54,12 +54,17 @@ class FaceEnergy {
   // times the energy that they take up.
   void metric(const LocalVector& x, LocalMatrix& metric) const;
 
+  // What M multiplies δa² with in the mean, J/m²: its stress times |dφ|². a² t² times it is about the energy
+  // taken up, where waves change by a part t of themselves, in height, or in phase by t radians.
+  double taken_up(const LocalVector& x) const;
+
   // The relaxed energy, joules; the sum of both is the face's part of (27).
   double relaxed() const { return relaxed_; }
 
  private:
   struct Terms;
   Terms terms(const LocalVector& x) const;
+  double metric_weight(const LocalVector& x, double second_mean) const;
 
   Eigen::Matrix<double, 2, 3> gradient_;
   Eigen::Matrix2d stress_;  // ½α tr(S) id + β S: ⟨S, vvᵀ⟩ = vᵀ stress v

@@ -284,6 +284,19 @@ VectorXd Problem::face_energies(const VectorXd& x) const {
   return result;
 }
 
+VectorXd Problem::taken_up(const VectorXd& x) const {
+  VectorXd result = VectorXd::Zero(size_);
+  for (const Face& face : faces_) {
+    const double share = face.energy.taken_up(local(face, x)) / 3 * amplitude_scale_ * amplitude_scale_;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index a = face.unknown[c];
+      if (a < 0) continue;
+      result[phase_begin() + complex_.phase_vertex[face.face][c]] += share * x[a] * x[a];
+    }
+  }
+  return result;
+}
+
 double Problem::gradient(const VectorXd& x, VectorXd& first) const {
   first = VectorXd::Zero(size_);
   double sum = 0;

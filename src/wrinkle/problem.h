@@ -66,6 +66,10 @@ class Problem {
   double rounding(const Eigen::VectorXd& x) const;
   // The parts of it, one a face; 0 where none is.
   Eigen::VectorXd face_energies(const Eigen::VectorXd& x) const;
+  // J, one an unknown: what tethers the phases of a state (solve.h) in proportion to the energy that its
+  // waves take up, each face's to its corners alike, times a². 0 for amplitudes, which the energy determines
+  // by itself, and which have to come to 0 where there are no waves; and for periods.
+  Eigen::VectorXd taken_up(const Eigen::VectorXd& x) const;
   // J: the relaxed energy of the live faces, and the whole energy of faces with pinned corners that are not
   // wrinkle-free.
   double relaxed_energy() const { return relaxed_energy_; }

@@ -1,58 +1,58 @@
 #include "wrinkle/sequence.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <complex>
-#include <numbers>
+#include <mutex>
+#include <numeric>
 
 #include "base/clock.h"
-#include "wrinkle/closed_form.h"
-#include "wrinkle/patches.h"
+#include "base/interrupt.h"
 #include "wrinkle/start.h"
 
 namespace plisse::wrinkle {
 namespace {
 
 using Eigen::Index;
-using Eigen::Vector2d;
-constexpr double turn = 2 * std::numbers::pi;
 
-// Amplitudes that are 0 stay so by symmetry, the energy being even in them; where new waves may have become
-// possible since the frame before, amplitudes start from this share of the faces' own ones.
-constexpr double seed = 0.05;
+// From key to key: δ, and frames.
+constexpr double key_change = 0.2;
+constexpr int key_frames = 12;
+// δ is over the frame's own strain, or over this share of the clip's largest: a calm frame is no key only
+// because its little strain is all new.
+constexpr double calm = 0.1;
+// A base whose forms change by less, relative to their root mean square, is the same: fields change about as
+// much, and nobody sees a ten-thousandth of a wave.
+constexpr double same = 1e-4;
 
-// Frames.
-constexpr int fresh_start_every = 6;
+// The tether's stiffness: of the energy that waves take up. The first is taken with which the energy is low
+// enough: the more, the smoother in time.
+constexpr std::array<double, 6> tethers{0.03, 0.0075, 0.002, 0.0005, 0.0001, 0};
 
-bool has_waves(const CoarseField& field, const shell::Face& t) {
-  return field.amplitude[t[0]] > 0 || field.amplitude[t[1]] > 0 || field.amplitude[t[2]] > 0;
+// Rule of energy: of a key and the frames beside it not more than so many times that of the frame solved
+// alone, above the relaxed one, and this share of the clip's largest (density of waves between .8 and 1.25).
+// A span goes on beyond that, up to `worst`, since a change costs more: for some frames unlike fields are
+// shown at once.
+constexpr double most_excess = 1.08, worst = 1.5, most_share = 1e-3;
+
+double smooth(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
 }
 
-bool flat(const Eigen::VectorXd& amplitude) {
-  return amplitude.size() == 0 || !(amplitude.maxCoeff() > 0);
+bool flat(const CoarseField& field) {
+  return field.amplitude.size() == 0 || !(field.amplitude.maxCoeff() > 0);
 }
 
-Vector2d gradient(const FaceForms& forms, const std::array<double, 3>& phase) {
-  return forms.rest.gradients * Eigen::Vector3d(phase[0], phase[1], phase[2]);
+CoarseField flat_field(const shell::Topology& topology) {
+  return {Eigen::VectorXd::Zero(static_cast<Index>(topology.vertex_count)),
+          std::vector<std::array<double, 3>>(topology.faces.size(), {0, 0, 0})};
 }
 
-// Root mean square of the angle between two fields' a exp(iφ).
-double phase_step(const shell::Topology& topology, const std::vector<FaceForms>& forms,
-                  const CoarseField& before, const CoarseField& now) {
-  double squares = 0, weights = 0;
-  if (before.phase.empty()) return 0;
-  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t v = topology.faces[f][c];
-      const double weight = forms[f].rest.area * before.amplitude[v] * now.amplitude[v];
-      squares += weight * std::pow(std::remainder(now.phase[f][c] - before.phase[f][c], turn), 2);
-      weights += weight;
-    }
-  }
-  return weights > 0 ? std::sqrt(squares / weights) : 0;
-}
-
-Eigen::VectorXd one_form(const shell::Topology& topology, const CoarseField& field) {
+Eigen::VectorXd one_form_of(const shell::Topology& topology, const CoarseField& field) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Index>(topology.edges.size()));
   for (std::size_t f = 0; f < topology.faces.size(); ++f) {
     if (!has_waves(field, topology.faces[f])) continue;
@@ -63,239 +63,432 @@ Eigen::VectorXd one_form(const shell::Topology& topology, const CoarseField& fie
   return result;
 }
 
-double smooth(double t) {
-  return t * t * (3 - 2 * t);
+// ∫ s₀ − s_crit of the faces' own waves, where positive, m².
+double developed(const Problem& problem) {
+  double sum = 0;
+  for (std::size_t f = 0; f < problem.live().size(); ++f) {
+    if (!problem.live()[f]) continue;
+    const LocalWaves& own = problem.own_waves()[f];
+    const double above = own.compression - own.critical(problem.model(), own.gradient.norm());
+    if (above > 0) sum += problem.forms()[f].rest.area * above;
+  }
+  return sum;
+}
+
+// Less amplitude everywhere, where that has less energy: c₀ + c₂t² + c₄t⁴ at t times it.
+void lower(const Problem& problem, Waves& waves) {
+  const auto energy = [&](double t) {
+    return problem.energy(problem.pack({t * waves.amplitude, waves.phase, waves.period}));
+  };
+  const double none = energy(0), half = energy(0.5) - none, whole = energy(1) - none;
+  const double c4 = (whole - 4 * half) * 4 / 3, c2 = whole - c4;
+  constexpr double least = 0.1;  // where c₂ says none at all, which single vertices can be the reason of
+  const double squared = c4 > 0 ? std::max(-c2 / (2 * c4), least * least) : 1;
+  if (squared < 1) waves.amplitude *= std::sqrt(squared);
+}
+
+// Root mean squares over the faces.
+struct Size {
+  double strain = 0, second_form = 0;
+};
+Size size_of(const std::vector<FaceForms>& a, const std::vector<FaceForms>* b = nullptr) {
+  Size sum;
+  double area = 0;
+  for (std::size_t f = 0; f < a.size(); ++f) {
+    const double weight = a[f].rest.area;
+    area += weight;
+    sum.strain += weight * (b ? a[f].strain - (*b)[f].strain : a[f].strain).squaredNorm();
+    sum.second_form += weight * (b ? a[f].second_form - (*b)[f].second_form : a[f].second_form).squaredNorm();
+  }
+  if (area == 0) return {};
+  return {std::sqrt(sum.strain / area), std::sqrt(sum.second_form / area)};
 }
 
 }  // namespace
 
-CoarseField cross_faded(const std::vector<shell::Face>& faces, const CoarseField& from, const CoarseField& to,
-                        double share) {
-  const bool later = share >= 0.5;
-  const CoarseField &main = later ? to : from, &other = later ? from : to;
-  const double small = later ? 1 - share : share;
-  CoarseField result = main;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t v = faces[f][c];
-      const double turn_to = other.phase[f][c] - main.phase[f][c];
-      const auto turned = std::polar(1.0, turn_to);
-      // Where a field has no amplitude its corners' phases need not agree, and the other one's count alone.
-      const bool here = main.amplitude[v] > 0, there = other.amplitude[v] > 0;
-      if (here && there) result.phase[f][c] += std::arg(1 - small + small * turned);
-      if (there && !here) result.phase[f][c] += std::remainder(turn_to, turn);
-      if (here || there)
-        result.amplitude[v] = std::abs((1 - small) * main.amplitude[v] + small * other.amplitude[v] * turned);
+FieldSequence::FieldSequence(Clip clip, const SequenceOptions& options,
+                             const std::function<void(int, int)>& progress)
+    : clip_(std::move(clip)), options_(options) {
+  measure();
+  place_keys();
+  solve_alone(progress);
+  if (interrupted()) return;
+  find_spans();
+  find_changes();
+}
+
+void FieldSequence::measure() {
+  const auto count = static_cast<std::size_t>(clip_.frames);
+  developed_.resize(count);
+  change_.resize(count, 0);
+  moved_.resize(count, 0);
+  std::vector<Size> sizes(count), steps(count);
+  std::vector<char> other_faces(count, 0);
+  constexpr std::size_t block = 32;
+  std::vector<ClipFrame> frames(block + 1);  // the last of the block before comes first
+  for (std::size_t begin = 0; begin < count && !interrupted(); begin += block) {
+    const std::size_t in_block = std::min(block, count - begin);
+    tbb::parallel_for(std::size_t{0}, in_block, [&](std::size_t i) {
+      ClipFrame& frame = frames[i + 1] = clip_.frame(static_cast<int>(begin + i));
+      developed_[begin + i] =
+          developed(Problem(clip_.topology, frame.forms, clip_.model, frame.wrinkle_free, clip_.clamped));
+      sizes[begin + i] = size_of(frame.forms);
+    });
+    for (std::size_t i = 0; i < in_block; ++i) {
+      if (begin + i == 0) continue;
+      steps[begin + i] = size_of(frames[i + 1].forms, &frames[i].forms);
+      other_faces[begin + i] = frames[i + 1].wrinkle_free != frames[i].wrinkle_free;
     }
+    frames[0] = std::move(frames[in_block]);
   }
+  Size most;
+  for (const Size& size : sizes) {
+    most.strain = std::max(most.strain, size.strain);
+    most.second_form = std::max(most.second_form, size.second_form);
+  }
+  for (std::size_t n = 1; n < count; ++n) {
+    const double strain = std::max({sizes[n - 1].strain, sizes[n].strain, calm * most.strain});
+    change_[n] = strain > 0 ? steps[n].strain / strain : 0;
+    const double bent = calm * most.second_form;
+    moved_[n] = moved_[n - 1] + (change_[n] > same || steps[n].second_form > same * bent || other_faces[n]);
+  }
+  way_.resize(count, 0);
+  std::partial_sum(change_.begin(), change_.end(), way_.begin());
+}
+
+// Outward from the most developed frame of all, so that a reversed clip has the same keys.
+void FieldSequence::place_keys() {
+  const int top =
+      static_cast<int>(std::max_element(developed_.begin(), developed_.end()) - developed_.begin());
+  const auto next = [&](int from, int step) {
+    const int end = step > 0 ? clip_.frames - 1 : 0;
+    int n = from + step;
+    while (n != end && std::abs(n + step - from) <= key_frames &&
+           std::abs(way_[static_cast<std::size_t>(n + step)] - way_[static_cast<std::size_t>(from)]) <=
+               key_change)
+      n += step;
+    return n;
+  };
+  key_frames_ = {top};
+  for (int n = top; n > 0;) key_frames_.push_back(n = next(n, -1));
+  std::reverse(key_frames_.begin(), key_frames_.end());
+  for (int n = top; n < clip_.frames - 1;) key_frames_.push_back(n = next(n, 1));
+}
+
+bool FieldSequence::still(int a, int b) const {
+  return moved_[static_cast<std::size_t>(a)] == moved_[static_cast<std::size_t>(b)];
+}
+
+void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
+  alone_.resize(key_frames_.size());
+  FieldOptions options = options_.field;
+  // What is compared and carried on needs no more.
+  options.solve.kkt = std::max(options.solve.kkt, 1e-3);
+  options.solve.energy = std::max(options.solve.energy, 1e-4);
+  int done = 0;
+  std::mutex mutex;
+  tbb::parallel_for(std::size_t{0}, alone_.size(), [&](std::size_t k) {
+    if (interrupted()) return;
+    const int frame = key_frames_[k];
+    if (k > 0 && still(key_frames_[k - 1], frame)) return;  // below
+    const ClipFrame forms = clip_.frame(frame);
+    const Problem problem(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped);
+    Alone& alone = alone_[k];
+    if (developed_[static_cast<std::size_t>(frame)] > 0) {
+      const Field field =
+          solve_field(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped, options);
+      alone = {{field.whole.waves.amplitude, field.phase},
+               field.whole.energy - problem.relaxed_energy(),
+               field.real.converged && field.whole.converged,
+               field.real.converged ? field.whole.reason : field.real.reason,
+               field.iterations};
+    } else {
+      alone.field = flat_field(clip_.topology);
+      alone.excess = problem.energy(Eigen::VectorXd::Zero(problem.size()));
+    }
+    const std::lock_guard lock(mutex);
+    if (progress) progress(++done, static_cast<int>(alone_.size()));
+  });
+  for (std::size_t k = 1; k < alone_.size(); ++k)
+    if (still(key_frames_[k - 1], key_frames_[k])) alone_[k] = alone_[k - 1];
+  for (const Alone& alone : alone_) most_ = std::max(most_, alone.excess);
+}
+
+FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const CoarseField& near,
+                                            const CoarseField& begin, double stiffness, double alone) const {
+  Key key;
+  const Problem problem(clip_.topology, frame.forms, clip_.model, frame.wrinkle_free, clip_.clamped);
+  key.energy = problem.relaxed_energy();
+  key.reason = "stationary";
+  key.field = flat_field(clip_.topology);
+  if (problem.size() == 0 || flat(near)) {
+    if (problem.size() > 0) key.excess = problem.energy(Eigen::VectorXd::Zero(problem.size()));
+    key.energy += key.excess;
+    return key;
+  }
+  Waves start = carried(problem, begin);
+  SolveOptions options = options_.field.solve;
+  options.fixed_periods = true;
+  options.trust = 1e-3;
+  options.kkt = std::max(options.kkt, 1e-4);
+  options.energy = std::max(options.energy, 1e-6);
+  start.amplitude = seeded(problem, start);
+  lower(problem, start);
+  // What is little beside the clip's energy need not be exact for itself.
+  if (alone < most_share * most_) {
+    const double little = std::min(most_share * most_ / alone, 1e3);
+    options.kkt *= little;
+    options.energy *= little;
+  }
+  std::optional<Tether> tied;
+  if (stiffness > 0) {
+    const Eigen::VectorXd to = problem.pack(carried(problem, near));
+    tied = Tether{to, stiffness * problem.taken_up(to)};
+  }
+  const Solution solution = wrinkle::solve(problem, start, options, tied);
+  key.energy = solution.energy;
+  key.excess = solution.energy - problem.relaxed_energy();
+  key.iterations = solution.iterations;
+  key.converged = solution.converged;
+  key.reason = solution.reason;
+  key.field = {solution.waves.amplitude, corner_phases(problem, solution.waves)};
+  const WaveCount count = count_waves(clip_.topology, problem.forms(), problem.live(),
+                                      solution.waves.amplitude, problem.one_form(solution.waves));
+  key.waves = count.round ? std::round(count.waves) : count.waves;  // whole up to rounding
+  align(clip_.topology, frame.forms, near, key.field);
+  return key;
+}
+
+double FieldSequence::limit(double alone, double times) const {
+  return times * alone + most_share * most_;
+}
+
+FieldSequence::Key FieldSequence::nearest(const ClipFrame& frame, const CoarseField& near,
+                                          double alone) const {
+  Key key;
+  int iterations = 0;
+  for (const double stiffness : tethers) {
+    key = minimised(frame, near, iterations == 0 ? near : key.field, stiffness, alone);
+    iterations += key.iterations;
+    if (key.excess <= limit(alone, most_excess)) break;
+  }
+  key.iterations = iterations;
+  return key;
+}
+
+FieldSequence::Key FieldSequence::next_key(int key, int from, const Key& before) const {
+  const int frame = key_frames_[static_cast<std::size_t>(key)];
+  if (still(frame, key_frames_[static_cast<std::size_t>(from)])) {
+    Key same_field = before;
+    same_field.still = true;
+    same_field.iterations = 0;
+    return same_field;
+  }
+  return nearest(clip_.frame(frame), before.field, alone_[static_cast<std::size_t>(key)].excess);
+}
+
+FieldSequence::Span FieldSequence::span_from(int anchor, const std::vector<int>& owner) const {
+  const auto frame_of = [&](int k) { return key_frames_[static_cast<std::size_t>(k)]; };
+  const auto& alone = alone_[static_cast<std::size_t>(anchor)];
+  const Key first = nearest(clip_.frame(frame_of(anchor)), alone.field, alone.excess);
+  // Keys from the anchor on, it left out; and how many of them are covered.
+  const auto walk = [&](int step, std::vector<Key>& keys, int& covered) {
+    Key before = first;
+    bool covers = true;
+    int edge = 0;  // the first key that is not covered
+    for (int k = anchor + step; k >= 0 && k < static_cast<int>(owner.size()) && !interrupted(); k += step) {
+      if (flat(before.field)) break;
+      if (!covers && std::abs(frame_of(k - step) - frame_of(edge)) > options_.fade / 2) break;
+      keys.push_back(next_key(k, k - step, before));
+      before = keys.back();
+      if (covers && (owner[static_cast<std::size_t>(k)] >= 0 ||
+                     before.excess > limit(alone_[static_cast<std::size_t>(k)].excess, worst))) {
+        covers = false;
+        edge = k;
+      }
+      if (covers) covered = static_cast<int>(keys.size());
+    }
+  };
+  std::vector<Key> back, forth;
+  int covered_back = 0, covered_forth = 0;
+  tbb::parallel_invoke([&] { walk(-1, back, covered_back); }, [&] { walk(1, forth, covered_forth); });
+  Span span;
+  span.anchor = anchor;
+  span.first = anchor - covered_back;
+  span.last = anchor + covered_forth;
+  span.begin = anchor - static_cast<int>(back.size());
+  span.keys.assign(back.rbegin(), back.rend());
+  span.keys.push_back(first);
+  span.keys.insert(span.keys.end(), forth.begin(), forth.end());
+  return span;
+}
+
+void FieldSequence::find_spans() {
+  owner_.assign(key_frames_.size(), -1);
+  const auto developed_at = [&](std::size_t k) {
+    return developed_[static_cast<std::size_t>(key_frames_[k])];
+  };
+  while (!interrupted()) {
+    int anchor = -1;
+    for (std::size_t k = 0; k < owner_.size(); ++k) {
+      if (owner_[k] < 0 && !flat(alone_[k].field) &&
+          (anchor < 0 || developed_at(k) > developed_at(static_cast<std::size_t>(anchor))))
+        anchor = static_cast<int>(k);
+    }
+    if (anchor < 0) return;
+    Span span = span_from(anchor, owner_);
+    // In the phases of a span that was there before.
+    for (const int step : {-1, 1}) {
+      const int k = step < 0 ? span.begin : span.end() - 1;
+      const int other = owner_[static_cast<std::size_t>(k)];
+      if (other < 0) continue;
+      const Span& known = spans_[static_cast<std::size_t>(other)];
+      const CoarseField* reference = &known.keys[static_cast<std::size_t>(k - known.begin)].field;
+      for (int at = k; at >= span.begin && at < span.end(); at -= step) {
+        Key& key = span.keys[static_cast<std::size_t>(at - span.begin)];
+        align(clip_.topology, clip_.frame(key_frames_[static_cast<std::size_t>(at)]).forms, *reference,
+              key.field);
+        reference = &key.field;
+      }
+      break;
+    }
+    for (int k = span.first; k <= span.last; ++k)
+      if (owner_[static_cast<std::size_t>(k)] < 0)
+        owner_[static_cast<std::size_t>(k)] = static_cast<int>(spans_.size());
+    spans_.push_back(std::move(span));
+  }
+}
+
+void FieldSequence::find_changes() {
+  for (std::size_t k = 1; k < owner_.size(); ++k) {
+    if (owner_[k] == owner_[k - 1]) continue;
+    Change change;
+    change.from = owner_[k - 1];
+    change.to = owner_[k];
+    // Half way between two frames; of one in the middle the span that was found first has more.
+    const int sum = key_frames_[k - 1] + key_frames_[k];
+    const bool before = change.to < 0 || (change.from >= 0 && change.from < change.to);
+    change.at = sum % 2 != 0 ? sum / 2.0 : sum / 2 + (before ? 0.5 : -0.5);
+    change.half = (options_.fade + 1) / 2.0;
+    const auto reach = [&](double frame) {
+      change.half = std::min(change.half, std::abs(frame - change.at));
+    };
+    const auto key_frame = [&](int key) { return key_frames_[static_cast<std::size_t>(key)]; };
+    // Flat and waves do not mix: waves come up, or go, by themselves.
+    if (change.from < 0 || change.to < 0) change.half = 0;
+    if (change.from >= 0) reach(key_frame(spans_[static_cast<std::size_t>(change.from)].end() - 1) + 1);
+    if (change.to >= 0) reach(key_frame(spans_[static_cast<std::size_t>(change.to)].begin) - 1);
+    if (!changes_.empty()) {
+      const double room = (change.at - changes_.back().at) / 2;
+      change.half = std::min(change.half, room);
+      changes_.back().half = std::min(changes_.back().half, room);
+    }
+    changes_.push_back(change);
+  }
+}
+
+SequenceFrame FieldSequence::of_span(int number, int n) const {
+  SequenceFrame result;
+  result.field = flat_field(clip_.topology);
+  result.reason = "stationary";
+  if (number < 0) return result;
+  const Span& span = spans_[static_cast<std::size_t>(number)];
+  const auto frame_of = [&](int k) { return key_frames_[static_cast<std::size_t>(k)]; };
+  const auto key_at = [&](int k) -> const Key& {
+    return span.keys[static_cast<std::size_t>(k - span.begin)];
+  };
+  // The last key up to the frame, or the span's first.
+  int k =
+      static_cast<int>(std::upper_bound(key_frames_.begin(), key_frames_.end(), n) - key_frames_.begin()) - 1;
+  k = std::clamp(k, span.begin, span.end() - 1);
+  const auto of_key = [&](int at, FrameKind kind) {
+    const Key& key = key_at(at);
+    result.field = key.field;
+    result.kind = kind;
+    result.energy = key.energy;
+    const double alone = alone_[static_cast<std::size_t>(at)].excess;
+    if (alone > 0) result.excess = key.excess / alone;
+    result.waves = key.waves;
+    result.converged = key.converged;
+    result.reason = key.reason;
+    if (kind != FrameKind::still) result.iterations = key.iterations;
+    if (kind == FrameKind::anchor) result.iterations += alone_[static_cast<std::size_t>(at)].iterations;
+    return result;
+  };
+  if (frame_of(k) == n)
+    return of_key(k, k == span.anchor  ? FrameKind::anchor
+                     : key_at(k).still ? FrameKind::still
+                                       : FrameKind::key);
+  if (still(frame_of(k), n)) return of_key(k, FrameKind::still);
+  const bool alone = k + 1 == span.end() || n < frame_of(k);  // beyond its keys
+  if (!alone && still(n, frame_of(k + 1))) return of_key(k + 1, FrameKind::still);
+  // From the key that is nearer to the anchor, so that a reversed clip has the same fields.
+  const bool forward = k >= span.anchor;
+  const int near = alone || forward ? k : k + 1, far = alone ? k : forward ? k + 1 : k;
+  const auto way = [&](int frame) { return way_[static_cast<std::size_t>(frame)]; };
+  const double whole = std::abs(way(frame_of(far)) - way(frame_of(near)));
+  const double share = alone       ? 0
+                       : whole > 0 ? std::abs(way(n) - way(frame_of(near))) / whole
+                                   : std::abs(n - frame_of(near)) / std::abs(frame_of(far) - frame_of(near));
+  const CoarseField between =
+      alone ? key_at(k).field : interpolated(clip_.topology, key_at(near).field, key_at(far).field, share);
+  const ClipFrame forms = clip_.frame(n);
+  result.kind = FrameKind::between;
+  if (options_.quality == Quality::draft) {
+    result.field = between;
+    const std::vector<bool> pinned =
+        Problem(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped).pinned();
+    for (std::size_t v = 0; v < pinned.size(); ++v)
+      if (pinned[v]) result.field.amplitude[static_cast<Index>(v)] = 0;
+    result.waves = key_at(share < 0.5 ? near : far).waves;
+    return result;
+  }
+  const auto alone_at = [&](int key) { return alone_[static_cast<std::size_t>(key)].excess; };
+  Key solved = nearest(forms, between, (1 - share) * alone_at(near) + share * alone_at(far));
+  result.field = std::move(solved.field);
+  result.waves = solved.waves;
+  result.energy = solved.energy;
+  result.iterations = solved.iterations;
+  result.converged = solved.converged;
+  result.reason = solved.reason;
   return result;
 }
 
-void align(const shell::Topology& topology, const std::vector<FaceForms>& forms, const CoarseField& reference,
-           CoarseField& field) {
-  if (reference.phase.empty()) return;
-  std::vector<bool> waves;
-  for (const shell::Face& t : topology.faces) waves.push_back(has_waves(field, t));
-  for (const auto& patch : patches(topology, waves)) {
-    const auto weight = [&](std::uint32_t f, std::size_t c) {
-      const std::uint32_t v = topology.faces[f][c];
-      return forms[f].rest.area * reference.amplitude[v] * field.amplitude[v];
-    };
-    double agreement = 0;
-    for (const std::uint32_t f : patch)
-      agreement += (weight(f, 0) + weight(f, 1) + weight(f, 2)) *
-                   gradient(forms[f], reference.phase[f]).dot(gradient(forms[f], field.phase[f]));
-    std::complex<double> overlap = 0;
-    for (const std::uint32_t f : patch) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (agreement < 0) field.phase[f][c] = -field.phase[f][c];
-        overlap += std::polar(weight(f, c), reference.phase[f][c] - field.phase[f][c]);
-      }
-    }
-    if (std::abs(overlap) == 0) continue;
-    for (const std::uint32_t f : patch)
-      for (double& phase : field.phase[f]) phase += std::arg(overlap);
-  }
-}
-
-FieldSequence::FieldSequence(shell::Topology topology, const Model& model, std::vector<bool> clamped,
-                             const SequenceOptions& options)
-    : topology_(std::move(topology)), model_(model), clamped_(std::move(clamped)), options_(options) {}
-
-// The field of the frame before on this frame's live faces, its periods kept. Faces that have just become
-// live continue their neighbours' waves; patches without such neighbours start with their own waves.
-Waves FieldSequence::carried(const Problem& problem, const CoarseField& before) const {
-  const PhaseComplex& complex = problem.complex();
-  const std::size_t faces = topology_.faces.size();
-  std::vector<bool> fresh(faces, false);
-  bool due = false;
-  for (std::size_t f = 0; f < faces; ++f) {
-    fresh[f] = complex.live[f] && !has_waves(before, topology_.faces[f]);
-    for (const std::uint32_t v : topology_.faces[f])
-      due = due || (complex.live[f] && !problem.pinned()[v] && !(before.amplitude[v] > 0));
-  }
-  Waves own;
-  if (due) own = initial_waves(problem);
-  std::vector<Vector2d> gradients(faces, Vector2d::Zero());
-  std::vector<double> weights(faces, 0);
-  const double most = before.amplitude.maxCoeff();
-  for (std::size_t f = 0; f < faces; ++f) {
-    if (!complex.live[f]) continue;
-    const shell::Face& t = topology_.faces[f];
-    const FaceForms& forms = problem.forms()[f];
-    if (fresh[f]) {
-      if (due) gradients[f] = forms.rest.gradients * complex.corner_phases(f, own.phase, own.period);
-      weights[f] = 1e-6 * forms.rest.area;
-    } else {
-      const double a =
-          (before.amplitude[t[0]] + before.amplitude[t[1]] + before.amplitude[t[2]]) / (3 * most);
-      gradients[f] = gradient(forms, before.phase[f]);
-      weights[f] = forms.rest.area * std::max(a * a, 1e-4);
-    }
-  }
-  Waves waves = nearest_closed(problem, gradients, weights);
-  const Eigen::VectorXd whole = turn * (waves.period / turn).array().round();
-  if ((whole - waves.period).cwiseAbs().sum() > 1e-9)
-    waves = nearest_closed(problem, gradients, weights, &whole);
-  waves.period = whole;
-  for (Index v = 0; v < waves.amplitude.size(); ++v) {
-    if (problem.pinned()[static_cast<std::size_t>(v)]) continue;
-    waves.amplitude[v] = before.amplitude[v];
-    if (due) waves.amplitude[v] = std::max(waves.amplitude[v], seed * own.amplitude[v]);
-  }
-  return waves;
-}
-
-FieldSequence::State FieldSequence::state_of(const Problem& problem, const Waves& waves) const {
-  const WaveCount count =
-      count_waves(topology_, problem.forms(), problem.live(), waves.amplitude, problem.one_form(waves));
-  // Around a loop they are whole numbers up to rounding.
-  return {{waves.amplitude, corner_phases(problem, waves)},
-          count.round ? std::round(count.waves) : count.waves};
-}
-
-Solution FieldSequence::solve_on(const Problem& problem, const Waves& start, bool fixed_periods,
-                                 SequenceFrame& frame) const {
-  SolveOptions options = options_.field.solve;
-  options.fixed_periods = fixed_periods;
-  Solution solution = solve(problem, start, options);
-  frame.iterations += solution.iterations;
-  if (!solution.converged && frame.converged) {
-    frame.converged = false;
-    frame.reason = solution.reason;
-  }
-  return solution;
-}
-
-// A field with other periods whose energy is low enough for a change: searched from the current field, and
-// sometimes from an independent start, since there are many minima.
-std::optional<Waves> FieldSequence::other_periods(const Problem& problem, const Solution& kept,
-                                                  SequenceFrame& frame) {
-  if (kept.waves.period.size() == 0) return std::nullopt;
-  std::vector<Waves> starts{kept.waves};
-  if (checks_++ % fresh_start_every == 0) starts.push_back(initial_waves(problem, options_.field.frequency));
-  std::optional<Solution> best;
-  double real_energy = kept.energy;
-  for (const Waves& start : starts) {
-    const Solution real = solve_on(problem, start, false, frame);
-    real_energy = std::min(real_energy, real.energy);
-    const Waves whole = with_whole_periods(problem, real.waves);
-    if ((whole.period - kept.waves.period).cwiseAbs().maxCoeff() < 1) continue;
-    Solution other = solve_on(problem, whole, true, frame);
-    if (!flat(other.waves.amplitude) && (!best || other.energy < best->energy)) best = std::move(other);
-  }
-  if (!best) return std::nullopt;
-  const double keeping = kept.energy - real_energy, changing = std::max(best->energy - real_energy, 0.0);
-  if (!(keeping > options_.hysteresis * changing)) return std::nullopt;
-  return best->waves;
-}
-
-std::optional<FieldSequence::State> FieldSequence::begun(const Problem& problem,
-                                                         const std::vector<FaceForms>& forms,
-                                                         const std::vector<bool>& wrinkle_free,
-                                                         SequenceFrame& frame) const {
-  const Field field = solve_field(topology_, forms, model_, wrinkle_free, clamped_, options_.field);
-  frame.iterations += field.iterations;
-  if (flat(field.whole.waves.amplitude)) return std::nullopt;
-  // Faces that were released there are live here, as later frames may need waves on them.
-  const Solution solution =
-      solve_on(problem, carried(problem, {field.whole.waves.amplitude, field.phase}), true, frame);
-  frame.energy = solution.energy;
-  frame.kkt = solution.kkt;
-  if (flat(solution.waves.amplitude)) return std::nullopt;
-  return state_of(problem, solution.waves);
-}
-
-SequenceFrame FieldSequence::next(const std::vector<FaceForms>& forms,
-                                  const std::vector<bool>& wrinkle_free) {
+SequenceFrame FieldSequence::solve(int n) const {
   const double began = wall_seconds();
-  SequenceFrame frame;
-  const Problem problem(topology_, forms, model_, wrinkle_free, clamped_);
-  const auto go_on = [&](State& state) {
-    const Solution solution = solve_on(problem, carried(problem, state.field), true, frame);
-    State next = state_of(problem, solution.waves);
-    align(topology_, forms, state.field, next.field);
-    state = std::move(next);
-    return solution;
-  };
-  frame.energy = problem.relaxed_energy();  // where nothing wrinkles
-  frame.reason = "stationary";
-  if (problem.size() == 0) {  // no face is compressed
-    now_.reset();
-    before_.reset();
-  } else if (now_) {
-    if (before_) {
-      go_on(*before_);
-      if (flat(before_->field.amplitude)) before_.reset();
-    }
-    const Solution kept = go_on(*now_);
-    frame.energy = kept.energy;
-    frame.kkt = kept.kkt;
-    if (flat(kept.waves.amplitude)) {
-      now_.reset();
-      before_.reset();
-    } else if (!before_ && faded_ >= options_.fade) {
-      if (const auto other = other_periods(problem, kept, frame)) {
-        before_ = std::move(now_);
-        now_ = state_of(problem, *other);
-        align(topology_, forms, before_->field, now_->field);
-        frame.waves_before = before_->waves;
-        faded_ = checks_ = 0;
-        rises_ = false;
-      }
-    }
-  } else if (auto state = begun(problem, forms, wrinkle_free, frame)) {
-    now_ = std::move(state);
-    if (!shown_.phase.empty()) {  // the first frame is not aligned
-      frame.waves_before = 0;
-      faded_ = 0;
-      rises_ = true;
-    } else {
-      faded_ = options_.fade;
+  int own = owner_.front();
+  const Change* last = nullptr;
+  for (const Change& change : changes_) {
+    if (n < change.at) break;
+    own = change.to;
+    last = &change;
+  }
+  SequenceFrame result = of_span(own, n);
+  for (const Change& change : changes_) {
+    if (!(std::abs(n - change.at) < change.half)) continue;
+    const double share = smooth((n - change.at) / (2 * change.half) + 0.5);
+    const bool before = own == change.from;
+    const SequenceFrame other = of_span(before ? change.to : change.from, n);
+    result.field = before ? cross_faded(clip_.topology.faces, result.field, other.field, share)
+                          : cross_faded(clip_.topology.faces, other.field, result.field, share);
+    result.share = before ? 1 - share : share;
+    result.iterations += other.iterations;
+    if (!other.converged && result.converged) {
+      result.converged = false;
+      result.reason = other.reason;
     }
   }
-
-  if (now_) {
-    frame.waves = now_->waves;
-    frame.field = now_->field;
-    if (faded_ < options_.fade && (before_ || rises_)) {
-      frame.share = smooth(++faded_ / (options_.fade + 1.0));
-      if (before_)
-        frame.field = cross_faded(topology_.faces, before_->field, now_->field, frame.share);
-      else
-        frame.field.amplitude *= frame.share;
-      if (faded_ == options_.fade) before_.reset();
+  if (last && n - 1 < last->at) {
+    result.waves_before = 0;
+    if (last->from >= 0) {
+      const Span& before = spans_[static_cast<std::size_t>(last->from)];
+      result.waves_before = before.keys[static_cast<std::size_t>(before.last - before.begin)].waves;
     }
-    rises_ = rises_ && faded_ < options_.fade;
-    frame.phase_step = phase_step(topology_, forms, shown_, frame.field);
-  } else {
-    frame.field.amplitude = Eigen::VectorXd::Zero(static_cast<Index>(topology_.vertex_count));
-    frame.field.phase.assign(topology_.faces.size(), {0, 0, 0});
   }
-  frame.one_form = one_form(topology_, frame.field);
-  shown_ = frame.field;
-  frame.solve_s = wall_seconds() - began;
-  return frame;
+  result.one_form = one_form_of(clip_.topology, result.field);
+  result.change = change_[static_cast<std::size_t>(n)];
+  result.solve_s = wall_seconds() - began;
+  return result;
 }
 
 }  // namespace plisse::wrinkle

@@ -1,41 +1,73 @@
-// Wrinkle fields over time: on a moving base surface the waves move continuously with it.
+// Wrinkle fields over time: a whole clip without history. On a moving base surface the waves move
+// continuously with it.
 //
-// The energy (27) does not depend on the frame before. The values that it does not determine are chosen so
-// that they change least, for each patch: one phase (closed form) and the sign of all phases. Whole-number
-// periods are kept until others have a clearly lower energy; then the old field and the new one, both solved
-// on every frame, are cross-faded as the complex amplitudes a exp(iφ). (Chen et al. 2021, section 7, leave
-// all of this open.)
+// The energy (27) of a frame has many minima and soft valleys, and does not know the frame before. So some
+// frames, the *keys*, are chosen by how far the strain of the base has changed; the most developed one is
+// solved alone, an *anchor*, and its topology (periods, rounded there) is carried from key to key, forward
+// and backward, as long as no other topology has a clearly lower energy: its *span*. The keys left get
+// anchors of their own. A frame between two keys of a span has their amplitudes and phases interpolated, and
+// its energy minimised with a tether to that. It depends on its keys only, and they on the whole clip, so it
+// is the same whichever frames are asked for. Where spans meet, both are shown for some frames. (Chen et al.
+// 2021, section 7, leave all of this open.)
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "wrinkle/between.h"
 #include "wrinkle/field.h"
-#include "wrinkle/upsample.h"
 
 namespace plisse::wrinkle {
 
+struct ClipFrame {
+  std::vector<FaceForms> forms;
+  std::vector<bool> wrinkle_free;
+};
+
+struct Clip {
+  shell::Topology topology;
+  Model model;
+  std::vector<bool> clamped;  // as for solve_field
+  int frames = 0;
+  // Of frames from 0 on; called from many threads at once, and more than once for a frame.
+  std::function<ClipFrame(int)> frame;
+};
+
+enum class Quality {
+  draft,  // frames between keys are interpolated
+  final   // and their energy minimised
+};
+
 struct SequenceOptions {
   FieldOptions field;
-  int fade = 6;  // frames that show both of two fields, ≥ 0
-  // Periods change where keeping them costs more than this many times what the new ones cost, both measured
-  // above the energy of real periods: 9 means a real period that is ¾ away from the kept whole number and ¼
-  // from the next. ≥ 1.
-  double hysteresis = 9;
+  int fade = 6;  // frames that show both of two spans, ≥ 0
+  Quality quality = Quality::final;
+};
+
+enum class FrameKind {
+  flat,     // nothing wrinkles
+  anchor,   // solved alone
+  key,      // carried from an anchor
+  between,  // two keys
+  still     // has a key's field, since the strain is a key's
 };
 
 struct SequenceFrame {
-  CoarseField field;                   // the field to show
-  Eigen::VectorXd one_form;            // its differences of phase, radians, one an edge
-  double waves = 0;                    // of the newest periods, see Field
-  double share = 1;                    // 0 … 1: weight of the newest periods in `field`
-  std::optional<double> waves_before;  // if periods change from this frame on: the number of waves before
-  // Radians: change of phase since the frame before, root mean square weighted by area and both amplitudes; 0
-  // where one of them has no waves.
-  double phase_step = 0;
-  double energy = 0, kkt = 0;  // of the newest periods, see Solution
-  int iterations = 0;          // of all solves of this frame
+  CoarseField field;         // the field to show
+  Eigen::VectorXd one_form;  // its differences of phase, radians, one an edge
+  FrameKind kind = FrameKind::flat;
+  double waves = 0;   // of the nearest key of its span, see Field
+  double change = 0;  // δ: of the strain since the frame before, over its root mean square
+  // 0 … 1: weight of its own span in `field`; less where another one is shown as well.
+  double share = 1;
+  std::optional<double> waves_before;  // on the first frame of a span that follows another: that one's
+  // J, see Solution: of its own span, where it was minimised; else 0.
+  double energy = 0;
+  // Of keys: the energy above the relaxed one over that of the frame solved alone.
+  std::optional<double> excess;
+  int iterations = 0;
   bool converged = true;
   std::string reason;
   double solve_s = 0;
@@ -43,48 +75,72 @@ struct SequenceFrame {
 
 class FieldSequence {
  public:
-  // clamped: as for solve_field.
-  FieldSequence(shell::Topology topology, const Model& model, std::vector<bool> clamped,
-                const SequenceOptions& options = {});
+  // Finds the keys and solves them, on all cores. `progress`: keys done, of how many.
+  FieldSequence(Clip clip, const SequenceOptions& options = {},
+                const std::function<void(int, int)>& progress = {});
 
-  // The next frame; forms and wrinkle-free faces are those of its base surface.
-  SequenceFrame next(const std::vector<FaceForms>& forms, const std::vector<bool>& wrinkle_free);
+  // The field of a frame (from 0 on). May be called from many threads.
+  SequenceFrame solve(int frame) const;
+
+  const std::vector<int>& keys() const { return key_frames_; }
+  std::size_t spans() const { return spans_.size(); }
 
  private:
-  // A field that is solved from frame to frame with the same periods.
-  struct State {
+  struct Alone {
     CoarseField field;
-    double waves = 0;
+    double excess = 0;  // J, above the relaxed energy
+    bool converged = true;
+    std::string reason;
+    int iterations = 0;
   };
-  Waves carried(const Problem& problem, const CoarseField& before) const;
-  State state_of(const Problem& problem, const Waves& waves) const;
-  std::optional<State> begun(const Problem& problem, const std::vector<FaceForms>& forms,
-                             const std::vector<bool>& wrinkle_free, SequenceFrame& frame) const;
-  Solution solve_on(const Problem& problem, const Waves& start, bool fixed_periods,
-                    SequenceFrame& frame) const;
-  std::optional<Waves> other_periods(const Problem& problem, const Solution& kept, SequenceFrame& frame);
+  struct Key {
+    CoarseField field;
+    double waves = 0, energy = 0, excess = 0;
+    int iterations = 0;
+    bool converged = true, still = false;
+    std::string reason;
+  };
+  struct Span {
+    int anchor = 0;           // numbers of keys
+    int first = 0, last = 0;  // that it covers
+    int begin = 0;            // of the first of `keys`: some beyond those covered, to cross-fade
+    std::vector<Key> keys;
+    int end() const { return begin + static_cast<int>(keys.size()); }
+  };
+  struct Change {
+    double at = 0, half = 0;  // frames; both spans are shown less than `half` from `at`
+    int from = 0, to = 0;     // spans, −1 where flat
+  };
 
-  shell::Topology topology_;
-  Model model_;
-  std::vector<bool> clamped_;
+  void measure();
+  void place_keys();
+  void solve_alone(const std::function<void(int, int)>& progress);
+  void find_spans();
+  void find_changes();
+  Span span_from(int anchor, const std::vector<int>& owner) const;
+  // The least energy with the topology of `near`, tethered to it; `alone`: about what the frame has alone, J
+  // above the relaxed energy.
+  Key minimised(const ClipFrame& frame, const CoarseField& near, const CoarseField& begin, double stiffness,
+                double alone) const;
+  // With the stiffest tether that keeps the energy within its limit.
+  Key nearest(const ClipFrame& frame, const CoarseField& near, double alone) const;
+  Key next_key(int key, int from, const Key& before) const;
+  double limit(double alone, double times) const;  // J, of the energy above the relaxed one
+  bool still(int a, int b) const;                  // whether the base is the same in all frames from a to b
+  SequenceFrame of_span(int span, int frame) const;
+
+  Clip clip_;
   SequenceOptions options_;
-  std::optional<State> now_, before_;  // with the newest periods; with those that fade out
-  int faded_ = 0;                      // frames since before_ began to fade
-  bool rises_ = false;                 // now_ fades in without an older field
-  int checks_ = 0;                     // checks of the periods since those of now_ began
-  CoarseField shown_;                  // by the last frame; empty before the first
+  std::vector<double> developed_;  // of every frame: ∫ compression above what waves need, m²
+  std::vector<double> change_;     // of every frame: δ to the one before
+  std::vector<double> way_;        // their sum
+  std::vector<int> moved_;         // how often the base has changed at all
+  std::vector<int> key_frames_;    // in order
+  std::vector<Alone> alone_;       // of every key
+  double most_ = 0;                // the largest energy above the relaxed one among them, J
+  std::vector<Span> spans_;
+  std::vector<int> owner_;  // span of every key, −1: flat
+  std::vector<Change> changes_;
 };
-
-// z = (1 − share) a exp(iφ) of one field + share a exp(iφ) of the other, on faces where both have phases: the
-// phases of the field with the larger share, plus the change that the other one causes; never by more than
-// half a turn.
-CoarseField cross_faded(const std::vector<shell::Face>& faces, const CoarseField& from, const CoarseField& to,
-                        double share);
-
-// Adds to the phases of each patch (faces with waves that share sides) of `field` the one number for which it
-// is nearest to `reference`, least squares of a exp(iφ) by area; before, changes their sign where the
-// gradients are opposite on average.
-void align(const shell::Topology& topology, const std::vector<FaceForms>& forms, const CoarseField& reference,
-           CoarseField& field);
 
 }  // namespace plisse::wrinkle

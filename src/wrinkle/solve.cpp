@@ -65,22 +65,33 @@ class Factor {
   shell::Cholesky cholesky_;
 };
 
-// E(x + s) ≈ E + gᵀs + ½ sᵀHs.
+double tether_energy(const std::optional<Tether>& tether, const VectorXd& x) {
+  return tether ? 0.5 * tether->stiffness.dot((x - tether->to).cwiseAbs2()) : 0;
+}
+
+// E(x + s) ≈ E + gᵀs + ½ sᵀHs, E with the tether.
 class Model {
  public:
-  explicit Model(const Problem& problem)
-      : problem_(problem), second_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
+  Model(const Problem& problem, const std::optional<Tether>& tether)
+      : problem_(problem), tether_(tether), second_(problem), matrix_(problem.pattern()), factor_(matrix_) {}
 
   double at(const VectorXd& x) {
     x_ = x;
-    const double energy = second_.at(x, first_);
+    double energy = second_.at(x, first_);
+    if (tether_) {
+      energy += tether_energy(tether_, x);
+      first_ += tether_->stiffness.cwiseProduct(x - tether_->to);
+    }
     ++assemblies;
     mean_ = second_.exact().coeffs().cwiseAbs().mean();
     if (!(mean_ > 0)) mean_ = 1;
     return energy;
   }
   const VectorXd& first() const { return first_; }
-  double second(Index i) const { return second_.exact().valuePtr()[second_.exact().outerIndexPtr()[i]]; }
+  double second(Index i) const {
+    return second_.exact().valuePtr()[second_.exact().outerIndexPtr()[i]] +
+           (tether_ ? tether_->stiffness[i] : 0);
+  }
 
   // Solves (H + `lifted` L + `lambda` M) s = −g, L and M of Problem::Curvature, on the unknowns that are not
   // held; held ones go to the bound that they are close to. Amplitudes that this moves beyond a bound are
@@ -95,7 +106,8 @@ class Model {
     // A phase where there is no amplitude is free, and one of every component is: neither has a gradient.
     constexpr double least_shift = 1e-12, lifted_shift = 1e-9;
     const double shift = (lambda > 0 ? least_shift : std::max(least_shift, lifted_shift * lifted)) * mean_;
-    for (Index i = 0; i < matrix_.cols(); ++i) matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += shift;
+    for (Index i = 0; i < matrix_.cols(); ++i)
+      matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += shift + (tether_ ? tether_->stiffness[i] : 0);
     const SparseMatrix<double> whole = matrix_;
 
     const VectorXd& upper = problem_.upper();
@@ -128,13 +140,15 @@ class Model {
 
   // How much the model falls by a step, J.
   double fall(const VectorXd& step) const {
-    return -first_.dot(step) - 0.5 * step.dot(second_.exact().selfadjointView<Eigen::Lower>() * step);
+    return -first_.dot(step) - 0.5 * step.dot(second_.exact().selfadjointView<Eigen::Lower>() * step) -
+           (tether_ ? 0.5 * tether_->stiffness.dot(step.cwiseAbs2()) : 0);
   }
 
   int assemblies = 0, factorisations = 0;
 
  private:
   const Problem& problem_;
+  const std::optional<Tether>& tether_;
   Problem::Curvature second_;
   SparseMatrix<double> matrix_;
   VectorXd x_, first_;
@@ -145,12 +159,17 @@ class Model {
 
 class Descent {
  public:
-  Descent(const Problem& problem, const Waves& start, const SolveOptions& options)
-      : problem_(problem), options_(options), model_(problem), lambda_(options.trust) {
+  Descent(const Problem& problem, const Waves& start, const SolveOptions& options,
+          const std::optional<Tether>& tether)
+      : problem_(problem),
+        options_(options),
+        tether_(tether),
+        model_(problem, tether),
+        lambda_(options.trust) {
     x_ = bounded(problem.pack(start));
     held_.resize(static_cast<std::size_t>(problem.size()));
     energy_ = model_.at(x_);
-    solution_.start_energy = energy_ + problem.relaxed_energy();
+    solution_.start_energy = energy_ - tether_energy(tether, x_) + problem.relaxed_energy();
     if (!std::isfinite(energy_) || !model_.first().allFinite())
       throw Error(ExitCode::bad_input,
                   "the start's energy is not finite: amplitudes or frequencies are out of all proportion");
@@ -168,7 +187,7 @@ class Descent {
         end(false, "too many iterations");
       } else if (interrupted()) {
         end(false, "interrupted");
-      } else if (energy_ + problem_.relaxed_energy() - options_.target > hopeless * gain_) {
+      } else if (lacking() > hopeless * gain_) {
         end(false, "does not come below the target");
       } else {
         hold_at_bounds();
@@ -180,7 +199,7 @@ class Descent {
     solution_.assemblies = model_.assemblies;
     solution_.factorisations = model_.factorisations;
     solution_.waves = problem_.unpack(x_);
-    solution_.energy = energy_ + problem_.relaxed_energy();
+    solution_.energy = energy_ - tether_energy(tether_, x_) + problem_.relaxed_energy();
     return std::move(solution_);
   }
 
@@ -214,9 +233,13 @@ class Descent {
     return x;
   }
 
+  double energy_at(const VectorXd& x) const { return problem_.energy(x) + tether_energy(tether_, x); }
   double rounding() {
     if (rounding_ < 0) rounding_ = problem_.rounding(x_);
     return rounding_;
+  }
+  double lacking() const {  // to SolveOptions::target, J
+    return energy_ - tether_energy(tether_, x_) + problem_.relaxed_energy() - options_.target;
   }
   bool stationary() const { return solution_.kkt <= options_.kkt; }
   void end(bool converged, std::string_view reason) {
@@ -267,7 +290,7 @@ class Descent {
       double length = 1;
       for (int halving = 0; halving < halvings; ++halving, length /= 2) {
         VectorXd trial = bounded(x_ + length * step);
-        const double next = problem_.energy(trial);
+        const double next = energy_at(trial);
         // Armijo along the bent line.
         if (!(next <= energy_ + 1e-4 * model_.first().dot(trial - x_) && next <= energy_)) continue;
         if (length == 1 && level_ > 0) --level_;
@@ -283,7 +306,7 @@ class Descent {
     bool indefinite = false, brought_back = false;
     for (; lambda_ <= most_damping; lambda_ = std::max(4 * lambda_, least_damping)) {
       const double lifted = lambda_ < first_lift ? 0 : std::min(lambda_ / whole_lift, 1.0);
-      if (!model_.step(held_, lifted, lambda_, 1, step)) {
+      if (!model_.step(held_, lifted, lambda_, tether_ ? 4 : 1, step)) {
         indefinite = true;
         continue;
       }
@@ -299,7 +322,7 @@ class Descent {
           if (stationary()) return end(true, "stationary");
           if (!telling) break;
           // One step more, since the model is finer than the energy: what is on its way to 0 comes there.
-          if (!below_rounding_ && problem_.energy(trial) <= energy_ + rounding()) {
+          if (!below_rounding_ && energy_at(trial) <= energy_ + rounding()) {
             below_rounding_ = true;
             return go(std::move(trial));
           }
@@ -310,7 +333,7 @@ class Descent {
         lambda_ = telling_damping / 4;  // and the loop makes it four times that
         continue;
       }
-      const double next = problem_.energy(trial), ratio = (energy_ - next) / fall;
+      const double next = energy_at(trial), ratio = (energy_ - next) / fall;
       if (!(fall > 0 && ratio >= least_gain)) continue;
       // What has just turned out too little is not tried again at once.
       if (ratio > 0.75 && !indefinite) lambda_ = lambda_ / 4 < least_damping ? 0 : lambda_ / 4;
@@ -322,6 +345,7 @@ class Descent {
 
   const Problem& problem_;
   const SolveOptions& options_;
+  const std::optional<Tether>& tether_;
   const double begin_ = wall_seconds();
   Model model_;
   Solution solution_;
@@ -364,8 +388,9 @@ double kkt_residual(const Problem& problem, const VectorXd& x, double energy, co
   return energy > 0 ? residual / energy : residual;
 }
 
-Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options) {
-  if (problem.size() > 0) return Descent(problem, start, options).run();
+Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options,
+               const std::optional<Tether>& tether) {
+  if (problem.size() > 0) return Descent(problem, start, options, tether).run();
   Solution nothing;
   nothing.waves = problem.unpack(VectorXd());
   nothing.start_energy = nothing.energy = problem.relaxed_energy();

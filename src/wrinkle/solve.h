@@ -2,12 +2,19 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wrinkle/problem.h"
 
 namespace plisse::wrinkle {
+
+// ½ Σ stiffness_i (x_i − to_i)², J: keeps a state near another one; both by the problem's unknowns,
+// stiffness ≥ 0 (Problem::taken_up, times a number).
+struct Tether {
+  Eigen::VectorXd to, stiffness;
+};
 
 struct SolveOptions {
   int max_iterations = 500;
@@ -25,12 +32,12 @@ struct SolveOptions {
 struct SolveStep {
   int iteration = 0;
   double seconds = 0;  // since the solve began
-  double energy = 0;   // J, as Solution::energy
+  double energy = 0;   // J, as Solution::energy, but with the tether's
 };
 
 struct Solution {
   Waves waves;
-  double start_energy = 0, energy = 0;  // J, (37): the relaxed energy included
+  double start_energy = 0, energy = 0;  // J, (37): the relaxed energy included, a tether's not
   double kkt = 0;                       // scaled residual, see kkt_residual
   int iterations = 0;
   int assemblies = 0, factorisations = 0;  // of the Hessian
@@ -52,6 +59,8 @@ double kkt_residual(const Problem& problem, const Eigen::VectorXd& x, double ene
 // lower half.
 void hold(Eigen::SparseMatrix<double>& matrix, const std::vector<bool>& held, double diagonal);
 
-Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options = {});
+// With a tether the sum of both is minimised, and stationary at the end.
+Solution solve(const Problem& problem, const Waves& start, const SolveOptions& options = {},
+               const std::optional<Tether>& tether = {});
 
 }  // namespace plisse::wrinkle

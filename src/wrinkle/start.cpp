@@ -206,6 +206,17 @@ Waves initial_waves(const Problem& problem, double frequency) {
   return start;
 }
 
+std::vector<Vector2d> completed(const Problem& problem, const std::vector<bool>& known,
+                                const std::vector<Vector2d>& gradients) {
+  std::vector<LocalWaves> local = problem.own_waves();
+  for (std::size_t f = 0; f < local.size(); ++f)
+    if (known[f]) local[f].gradient = gradients[f];
+  comb(local, problem, known);
+  std::vector<Vector2d> result;
+  for (const LocalWaves& l : local) result.push_back(l.gradient);
+  return result;
+}
+
 Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves) {
   const std::size_t count = to.forms().size();
   Target target;

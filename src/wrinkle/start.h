@@ -20,6 +20,11 @@ Waves initial_waves(const Problem& problem, double frequency = 1);
 // continue into them, with the best of a few scales.
 Waves continued_waves(const Problem& to, const Problem& from, const Waves& waves);
 
+// Gradients (radians per metre, one a face) with those of live faces that are not `known` replaced by the
+// faces' own waves, in the sign that agrees with the known ones.
+std::vector<Eigen::Vector2d> completed(const Problem& problem, const std::vector<bool>& known,
+                                       const std::vector<Eigen::Vector2d>& gradients);
+
 // The given waves with consistent signs and the nearest closed one-form; amplitudes √(2s₀)/|ω| of the faces'
 // own waves, unscaled. One entry of `local` a face.
 Waves waves_of(const Problem& problem, std::vector<LocalWaves> local);
