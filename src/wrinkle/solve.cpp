@@ -223,6 +223,8 @@ class Descent {
   // is nothing but the way down.
   static constexpr double least_damping = 1e-7, telling_damping = 1e-3, telling_if_loose = 0.1,
                           first_lift = 1e-3, whole_lift = 0.1, most_damping = 1e12;
+  static constexpr int most_creeping = 10;
+  static constexpr double late = 1e-6;        // of the energy: a search whose steps gain less is about to end
   static constexpr double loose = 1e-6;       // SolveOptions::energy from which on a search is loose
   static constexpr double least_gain = 1e-3;  // of what the model falls
   static constexpr double hopeless = 20;  // steps like the last that it would take to SolveOptions::target
@@ -304,18 +306,27 @@ class Descent {
   void trusted_step() {
     VectorXd step;
     bool indefinite = false, brought_back = false;
-    for (; lambda_ <= most_damping; lambda_ = std::max(4 * lambda_, least_damping)) {
+    indefinite_at_ *= 0.9;
+    const auto more = [&] {
+      if (!late_ || !(lambda_ > 0 && lambda_ < good_)) return std::max(4 * lambda_, least_damping);
+      // Between what fails and what worked in the last step, while that is far off.
+      return indefinite_at_ == lambda_ && 1.3 * lambda_ < good_ ? std::sqrt(lambda_ * good_) : good_;
+    };
+    for (; lambda_ <= most_damping; lambda_ = more()) {
       const double lifted = lambda_ < first_lift ? 0 : std::min(lambda_ / whole_lift, 1.0);
       if (!model_.step(held_, lifted, lambda_, tether_ ? 4 : 1, step)) {
         indefinite = true;
+        indefinite_at_ = lambda_;
         continue;
       }
       VectorXd trial = bounded(x_ + step);
       step = trial - x_;
       const double fall = model_.fall(step);
       const bool telling = lambda_ <= (options_.energy < loose ? telling_damping : telling_if_loose);
-      if (telling && stationary() && std::abs(fall) <= options_.energy * energy_)
-        return end(true, "stationary");
+      const bool little = stationary() && std::abs(fall) <= options_.energy * energy_;
+      // Or where the search creeps along a saddle so flat that many steps together gain nothing.
+      if (little && (telling || ++creeping_ > most_creeping)) return end(true, "stationary");
+      if (!little) creeping_ = 0;
       if (std::abs(fall) <= rounding()) {
         // Not even worth a look at the energy, unless it is for λ that there is so little.
         if (telling || indefinite) {
@@ -331,12 +342,21 @@ class Descent {
         if (brought_back) break;  // small steps are below rounding, and larger ones do not go down
         brought_back = true;
         lambda_ = telling_damping / 4;  // and the loop makes it four times that
+        good_ = 0;
         continue;
       }
       const double next = energy_at(trial), ratio = (energy_ - next) / fall;
       if (!(fall > 0 && ratio >= least_gain)) continue;
-      // What has just turned out too little is not tried again at once.
-      if (ratio > 0.75 && !indefinite) lambda_ = lambda_ / 4 < least_damping ? 0 : lambda_ / 4;
+      good_ = lambda_;
+      late_ = fall <= late * energy_;
+      if (ratio > 0.75) {
+        if (late_ && lambda_ / 4 <= indefinite_at_) {
+          // Near that λ steps are long along the ways down from a saddle, which take hundreds otherwise.
+          if (lambda_ > 1.1 * indefinite_at_) lambda_ = std::sqrt(indefinite_at_ * lambda_);
+        } else if (!indefinite) {  // what has just turned out too little is not tried again at once
+          lambda_ = lambda_ / 4 < least_damping ? 0 : lambda_ / 4;
+        }
+      }
       if (ratio < 0.25) lambda_ = std::max(4 * lambda_, least_damping);
       return go(std::move(trial));
     }
@@ -357,6 +377,10 @@ class Descent {
   double rounding_ = -1;                                   // of the energy, once it is asked for
   std::size_t level_ = lifts.size() - 1;
   double lambda_;
+  double indefinite_at_ = 0;  // the λ at which the matrix was not positive definite, less as steps go by
+  double good_ = 0;           // λ of the last step
+  bool late_ = false;
+  int creeping_ = 0;  // steps in a row that gained next to nothing
 };
 
 }  // namespace
