@@ -350,6 +350,7 @@ cloth::WrinkleSequenceReport solve_sequence(const Arguments& arguments,
       log::notice(fmt::format("frame {}: {:.4g} waves become {:.4g}", frame.frame, *solved.waves_before,
                               solved.waves));
   }
+  if (report.frames.empty()) return report;  // interrupted while the keys were solved
   const auto& last = report.frames.back();
   log::notice(fmt::format("{} frames in {:.2f} s; {} vertices, at last {:.4g} waves, at most {:.4g} mm high",
                           report.frames.size(), report.wall_s, report.vertices, last.solved.waves,

@@ -185,7 +185,8 @@ void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
   // What is compared and carried on needs no more.
   options.solve.kkt = std::max(options.solve.kkt, 1e-3);
   options.solve.energy = std::max(options.solve.energy, 1e-4);
-  int done = 0;
+  int done = 0, of = 1;
+  for (std::size_t k = 1; k < key_frames_.size(); ++k) of += !still(key_frames_[k - 1], key_frames_[k]);
   std::mutex mutex;
   tbb::parallel_for(std::size_t{0}, alone_.size(), [&](std::size_t k) {
     if (interrupted()) return;
@@ -207,7 +208,7 @@ void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
       alone.excess = problem.energy(Eigen::VectorXd::Zero(problem.size()));
     }
     const std::lock_guard lock(mutex);
-    if (progress) progress(++done, static_cast<int>(alone_.size()));
+    if (progress) progress(++done, of);
   });
   for (std::size_t k = 1; k < alone_.size(); ++k)
     if (still(key_frames_[k - 1], key_frames_[k])) alone_[k] = alone_[k - 1];
