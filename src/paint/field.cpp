@@ -179,8 +179,10 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
   const auto all = differences(surface, field);
   for (std::size_t v = 0; v < all.size(); ++v) {
     smooth.push_back(!all[v].empty() && std::all_of(all[v].begin(), all[v].end(), [&](const Difference& d) {
-      const double reached = 0.5 * glm::dot(gradients[v] + gradients[d.to], d.edge);
-      return std::abs(reached - d.phase) < pi / 2;
+      const double alone = glm::dot(gradients[v], d.edge),
+                   reached = 0.5 * (alone + glm::dot(gradients[d.to], d.edge));
+      // The mean may be right where both gradients are wrong, against each other.
+      return std::abs(reached - d.phase) < pi / 2 && std::abs(alone - d.phase) < pi;
     }));
   }
   std::vector<FieldTriangle> result(surface.triangle_count());

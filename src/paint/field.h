@@ -40,10 +40,10 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
                    double dead_zone, VertexWaves& waves);
 
 // The field to be carried unchanged: in each triangle, the phase of every corner with the gradient of its
-// vertex. Where a vertex's gradient predicts a neighbour's phase with an error above a quarter of a turn
-// (around a singularity), or where the amplitude is 0, its phase is interpolated linearly between the corners
-// instead. Amplitudes are multiplied by `mask`, one a welded vertex: the scene's strength, 0 for excluded
-// parts.
+// vertex. Where a vertex's gradient predicts a neighbour's phase with an error above half a turn, or the mean
+// of both with one above a quarter (around a singularity), or where the amplitude is 0, its phase is
+// interpolated linearly between the corners instead. Amplitudes are multiplied by `mask`, one a welded
+// vertex: the scene's strength, 0 for excluded parts.
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
                                           const SurfaceField& field, const std::vector<double>& mask);
 

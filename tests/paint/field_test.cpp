@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "base/error.h"
 #include "reference/waves.h"
@@ -475,6 +476,30 @@ TEST(FieldFiles, HaveToFitTheSurface) {
   for (double& a : large.amplitude) a *= 1000;
   const SurfaceField scaled = field_on(sheet.surface, large, to_world, "f.ply");
   EXPECT_NEAR(scaled.amplitude[3], 0.001, 1e-15);
+}
+
+// Where phases are such that no gradient fits, a corner's wave is linear between the corners: nowhere more
+// than half a turn beside what the corners say, however the gradients come out (two may be wrong against each
+// other).
+TEST(FieldFormula, DirectlyAgreesWithCornersWhateverTheField) {
+  const Sheet sheet = test::grid(12, 12, edge, 0.2, 5);
+  std::mt19937 random(3);
+  for (const double spread : {0.5, 1.0, 2.0, 4.0}) {
+    std::normal_distribution<double> phase(0, spread);
+    std::vector<double> own;
+    for (std::size_t v = 0; v < sheet.surface.vertex_count(); ++v) own.push_back(phase(random));
+    SurfaceField field = field_of(
+        sheet, [](const glm::dvec3&) { return 0.01; }, [](const glm::dvec3&) { return 0; });
+    for (std::size_t t = 0; t < field.phase.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c) field.phase[t][c] = own[corner_of(sheet, t, c)];
+    const auto triangles = field_directly(sheet.surface, sheet.rest, field, sheet.waves.mask);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const double whole = std::round(field.phase[t][0] / (2 * pi));
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k)
+          ASSERT_LT(std::abs(triangles[t].turns[j][k] + whole - field.phase[t][k] / (2 * pi)), 0.5);
+    }
+  }
 }
 
 }  // namespace
