@@ -152,6 +152,11 @@ GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
     json_ = std::make_unique<Json>(parse(*file, path));
   }
   if (!json_->is_object()) fail(path, "is no glTF: its JSON is not an object");
+  // Version 1.0 had names in place of numbers, and at first no version.
+  const Json& json = *json_;
+  const auto is_named = [&](const char* list) { return json.contains(list) && json[list].is_object(); };
+  if (is_named("meshes") || is_named("nodes") || is_named("accessors"))
+    fail(path, "is glTF version 1; only 2 is read: export it again");
   const std::string version = root()["asset"]["version"].text("2.0");
   if (!version.starts_with("2."))
     fail(path, fmt::format("is glTF version {}; only 2 is read: export it again", version));

@@ -31,6 +31,23 @@ GltfUvs uvs_of(const GltfValue& info) {
   return result;
 }
 
+void warn_unread(const GltfFile& file, std::string_view what) {
+  log::warn_once(fmt::format("look {} {}", file.path().string(), what),
+                 fmt::format("{}: {} not read", file.path().string(), what));
+}
+
+// glTF 2.0, 5.26: the modes other than those that are drawn, which are the specification's own choice.
+void warn_of_sampler(GltfFile& file, const GltfValue& texture) {
+  if (!texture["sampler"]) return;
+  const GltfValue sampler = file.list("samplers").at(texture["sampler"].index(file.list("samplers")));
+  constexpr std::uint64_t repeat = 10497, nearest = 9728, linear_mipmap_linear = 9987, linear = 9729;
+  if (sampler["wrapS"].count(repeat) != repeat || sampler["wrapT"].count(repeat) != repeat)
+    warn_unread(file, "a texture is not to repeat (wrapS, wrapT); it does, as its wrapping is");
+  const std::uint64_t small = sampler["minFilter"].count(linear_mipmap_linear);
+  if (sampler["magFilter"].count(linear) == nearest || (small != linear_mipmap_linear && small != linear))
+    warn_unread(file, "a texture is not to be smooth (magFilter, minFilter); it is, as its filters are");
+}
+
 // Index into model.textures of what a texture reference names; −1 without one, or where it is missing.
 int texture_of(GltfFile& file, const GltfValue& info, Texture::Use use, Model& model) {
   if (!info) return -1;
@@ -42,6 +59,7 @@ int texture_of(GltfFile& file, const GltfValue& info, Texture::Use use, Model& m
                     file.path().string()));
     return -1;
   }
+  warn_of_sampler(file, texture);
   const std::size_t id = texture["source"].index(file.list("images"));
   const GltfValue image = file.list("images").at(id);
   const std::string name = fmt::format("embedded {}", id);
@@ -70,6 +88,11 @@ Material read_material(GltfFile& file, const GltfValue& source, GltfLook& look, 
   material.normal_scale = static_cast<float>(normal["scale"].number(1));
   material.normal_texture = texture_of(file, normal, Texture::Use::normals, model);
 
+  const std::vector<double> emission = source["emissiveFactor"].numbers(3, {0, 0, 0});
+  if (emission[0] > 0 || emission[1] > 0 || emission[2] > 0)
+    warn_unread(file, fmt::format("material '{}' gives light (emissiveFactor), which is", material.name));
+  if (source["extensions"]["KHR_materials_unlit"])
+    warn_unread(file, fmt::format("material '{}' is unlit (KHR_materials_unlit), which is", material.name));
   const std::string alpha = source["alphaMode"].text("OPAQUE");
   if (alpha == "MASK")
     material.alpha = Material::Alpha::mask;

@@ -78,6 +78,7 @@ class PrimitiveReader {
           fmt::format("{}: mesh '{}' has {} corners, not a multiple of three; the last are left out",
                       file_.path().string(), name, data_.indices.size()));
     read_normals(result);
+    result.flat = result.normals.empty();  // glTF 2.0, 3.7.2.1
     read_colours(result);
     const GltfLook look =
         result.material >= 0 ? looks[static_cast<std::size_t>(result.material)] : GltfLook{};
@@ -243,7 +244,12 @@ std::vector<Mesh> read_gltf_mesh(GltfFile& file, std::size_t id, int skin, int h
     const GltfValue source = primitives.at(p);
     const std::uint64_t mode = source["mode"].count(4);
     if (mode > 6) source["mode"].fail(fmt::format("is {}, must be 0 to 6", mode));
-    if (mode < 4) continue;  // points and lines
+    if (mode < 4) {
+      log::warn_once("points " + file.path().string(),
+                     fmt::format("{}: mesh '{}' has points or lines; only triangles are drawn",
+                                 file.path().string(), name));
+      continue;
+    }
     if (!source["attributes"]["POSITION"]) {
       log::warn_once("no positions " + file.path().string(),
                      fmt::format("{}: mesh '{}' has a part without positions; it is left out",

@@ -69,6 +69,7 @@ struct Mesh {
   int material = -1;
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;        // unit, or empty
+  bool flat = false;                     // without normals: each triangle has its own, not the surface's
   std::vector<glm::vec2> uvs;            // v grows upward as in OpenGL (texture row 0 is at v = 1), or empty
   std::vector<glm::vec2> normal_uvs;     // the normal map's, where they are not `uvs`; or empty
   std::vector<glm::vec4> colours;        // linear, multiply the base colour; or empty

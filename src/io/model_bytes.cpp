@@ -127,10 +127,10 @@ void fields(Archive& archive, MorphTarget& of) {
 }
 template <typename Archive>
 void fields(Archive& archive, Mesh& of) {
-  auto& [name, material, positions, normals, uvs, normal_uvs, colours, triangles, bones, influences, targets,
-         file_max_influences, file_vertices] = of;
-  put_all(archive, name, material, positions, normals, uvs, normal_uvs, colours, triangles, bones, influences,
-          targets, file_max_influences, file_vertices);
+  auto& [name, material, positions, normals, flat, uvs, normal_uvs, colours, triangles, bones, influences,
+         targets, file_max_influences, file_vertices] = of;
+  put_all(archive, name, material, positions, normals, flat, uvs, normal_uvs, colours, triangles, bones,
+          influences, targets, file_max_influences, file_vertices);
 }
 template <typename Archive>
 void fields(Archive& archive, Node& of) {

@@ -12,10 +12,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "base/log.h"
 
@@ -266,9 +269,48 @@ class Gatherer {
     part.has_colours = !mesh.colours.empty();
     result_.parts.push_back(std::move(part));
     const bool mirrored = glm::determinant(glm::dmat3(placed_.matrix)) < 0;
-    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
-      for (const std::size_t corner : {0, mirrored ? 2 : 1, mirrored ? 1 : 2})
-        result_.triangles.push_back(ids_[mesh.triangles[t + corner]]);
+    copies_known_.clear();
+    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+      std::array<std::uint32_t, 3> corners{};
+      for (std::size_t c = 0; c < 3; ++c) corners[c] = ids_[mesh.triangles[t + c]];
+      if (mirrored) std::swap(corners[1], corners[2]);
+      if (mesh.flat) flatten(corners);
+      result_.triangles.insert(result_.triangles.end(), corners.begin(), corners.end());
+    }
+  }
+
+  // Gives the corners the triangle's normal. A vertex that has that of another triangle is copied; welding
+  // joins the copies again, so that waves cross the edge.
+  void flatten(std::array<std::uint32_t, 3>& corners) {
+    const auto& x = result_.vertices.positions;
+    const glm::dvec3 area = glm::cross(x[corners[1]] - x[corners[0]], x[corners[2]] - x[corners[0]]);
+    const double length = glm::length(area);
+    if (!(length > 0) || !std::isfinite(length)) return;
+    const glm::dvec3 normal = area / length;
+    for (std::uint32_t& corner : corners) {
+      if (result_.normals[corner] == glm::dvec3(0)) result_.normals[corner] = normal;
+      if (result_.normals[corner] == normal) continue;
+      const auto [entry, fresh] = copies_known_.try_emplace({corner, {normal.x, normal.y, normal.z}},
+                                                            static_cast<std::uint32_t>(x.size()));
+      if (fresh) copy(corner, normal);
+      corner = entry->second;
+    }
+  }
+
+  void copy(std::uint32_t vertex, const glm::dvec3& normal) {
+    const auto again = [&](auto& items) {
+      const auto item = items[vertex];
+      items.push_back(item);
+    };
+    again(result_.vertices.positions);
+    again(result_.vertices.influences);
+    again(result_.uvs);
+    again(result_.normal_uvs);
+    again(result_.colours);
+    again(result_.cache_index);
+    if (numbers_.size() == result_.normals.size()) again(numbers_);
+    result_.normals.push_back(normal);
+    copies_.push_back({static_cast<std::uint32_t>(result_.normals.size() - 1), vertex});
   }
 
   // Vertices in the order of their numbers in the file, where those are known, whatever the order in which
@@ -298,6 +340,7 @@ class Gatherer {
     for (Deltas& instance : deltas_)
       for (std::uint32_t& id : instance.ids)
         if (id < place.size()) id = place[id];
+    for (Copy& one : copies_) one = {place[one.made], place[one.from]};
   }
 
   // Deltas are stored target after target for all vertices, so they are arranged when the count is known.
@@ -311,6 +354,9 @@ class Gatherer {
           if (instance.ids[v] != std::numeric_limits<std::uint32_t>::max())
             result_.vertices.target_deltas[(instance.first_target + t) * count + instance.ids[v]] =
                 instance.linear * glm::dvec3(instance.mesh->targets[t].position_deltas[v]);
+    for (const auto& [made, from] : copies_)
+      for (std::size_t t = 0; t < result_.targets.size(); ++t)
+        result_.vertices.target_deltas[t * count + made] = result_.vertices.target_deltas[t * count + from];
   }
 
   struct Deltas {
@@ -318,6 +364,10 @@ class Gatherer {
     std::vector<std::uint32_t> ids;
     glm::dmat3 linear;
     std::size_t first_target;
+  };
+
+  struct Copy {
+    std::uint32_t made, from;
   };
 
   const io::Model& model_;
@@ -330,6 +380,8 @@ class Gatherer {
   std::vector<std::uint32_t> numbers_;  // in the file, of each gathered vertex where all are known
   std::vector<std::uint32_t> ids_;      // mesh vertex → gathered vertex, of the current instance
   std::vector<Deltas> deltas_;
+  std::map<std::pair<std::uint32_t, std::array<double, 3>>, std::uint32_t> copies_known_;  // of this instance
+  std::vector<Copy> copies_;
 };
 
 }  // namespace

@@ -13,7 +13,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/log.h"
 #include "io/import.h"
+#include "io/png.h"
 #include "scene/animation.h"
 #include "support/errors.h"
 #include "support/files.h"
@@ -375,6 +377,57 @@ TEST_F(GltfGeometry, Draco) {
     right.emplace_back(std::round(10 * key(corners[c])),
                        c == 5 ? glm::vec4(0, 0.2F, 0, 0) : glm::vec4(1, 0, 0, 1));
   EXPECT_THAT(left, testing::UnorderedElementsAreArray(right));
+}
+
+// glTF 2.0, 3.7.2.1.
+TEST_F(GltfGeometry, WithoutNormalsMeshesAreFlat) {
+  const int places = buffer_.array<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int normals = buffer_.array<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
+  EXPECT_TRUE(mesh(fmt::format(R"("attributes":{{"POSITION":{}}})", places)).flat);
+  EXPECT_FALSE(mesh(fmt::format(R"("attributes":{{"POSITION":{},"NORMAL":{}}})", places, normals)).flat);
+}
+
+TEST_F(GltfGeometry, PointsAndLinesAreTold) {
+  const int places = buffer_.array<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const Model model = import(fmt::format(
+      R"("nodes":[{{"mesh":0}}],"meshes":[{{"name":"m","primitives":[{{"attributes":{{"POSITION":{0}}}}},{{"mode":1,"attributes":{{"POSITION":{0}}}}}]}}])",
+      places));
+  EXPECT_EQ(model.meshes.size(), 1U);
+  EXPECT_THAT(log::warnings(), testing::Contains(testing::HasSubstr((folder_ / "file.gltf").string() +
+                                                                    ": mesh 'm' has points or lines")));
+}
+
+// What changes the picture and is not read is named, once; what is as usual is not.
+TEST_F(GltfGeometry, LooksThatAreNotReadAreTold) {
+  const int places = buffer_.array<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto read = [&](const std::string& material, const std::string& sampler) {
+    const std::size_t before = log::warnings().size();
+    const std::string picture = test::base64(encode_png({1, 1, {9, 9, 9, 255}}));
+    import(fmt::format(
+        R"("nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"material":0,"attributes":{{"POSITION":{}}}}}]}}],
+           "materials":[{{"name":"m",{}}}],"textures":[{{"source":0,"sampler":0}}],"samplers":[{{{}}}],
+           "images":[{{"uri":"data:image/png;base64,{}"}}])",
+        places, material, sampler, picture));
+    std::vector<std::string> all = log::warnings();
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before));
+    return all;
+  };
+  using testing::HasSubstr;
+  const std::string textured = R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}})";
+  EXPECT_THAT(
+      read(textured + R"(,"emissiveFactor":[0,0,0])", R"("wrapS":10497,"minFilter":9987,"magFilter":9729)"),
+      testing::IsEmpty());
+  EXPECT_THAT(read(R"("emissiveFactor":[0,0.5,0])", ""), ElementsAre(HasSubstr("'m' gives light")));
+  EXPECT_THAT(read(R"("extensions":{"KHR_materials_unlit":{}})", ""), ElementsAre(HasSubstr("'m' is unlit")));
+  EXPECT_THAT(read(textured, R"("wrapT":33071)"), ElementsAre(HasSubstr("wrapS, wrapT")));
+  EXPECT_THAT(read(textured, R"("magFilter":9728)"), ElementsAre(HasSubstr("magFilter, minFilter")));
+}
+
+TEST_F(GltfGeometry, TheFirstVersionIsNamed) {
+  std::ofstream(folder_ / "old.gltf")
+      << R"({"meshes":{"m":{"primitives":[]}},"nodes":{"n":{"meshes":["m"]}}})";
+  EXPECT_THAT(test::error_of([&] { import_model(folder_ / "old.gltf"); }),
+              testing::HasSubstr("is glTF version 1"));
 }
 
 }  // namespace
