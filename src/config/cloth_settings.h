@@ -22,7 +22,7 @@ struct ModelSettings {
   std::filesystem::path garment;    // a panel file or GarmentCode pattern, which is meshed here
   std::vector<std::string> pieces;  // panels of it, by name; none: all
   std::string fabric;               // in place of the panels' own, as parse_fabric takes it; empty: theirs
-  std::string clip;                 // name or index; empty: first
+  std::string clip;                 // name, index, list or all; empty: first with a length
   double frames_per_second = 0;     // 0: 24, a sequence's own
   std::string frames;               // selection "1-48x2,60"; empty: all
   bool loop = false;                // replays one period first
@@ -43,7 +43,9 @@ void model_keys(Row& row) {
       "Panels of the garment, by name, and the seams between them; none named: all.");
   row("fabric", &S::fabric, fabric_text("the panels' own"),
       "The fabric of all the garment's panels, in place of their own; GarmentCode patterns have none.");
-  row("clip", &S::clip, name_or_index("the first"), "The animation to play.", {"--clip", "NAME|INDEX"});
+  row("clip", &S::clip, name_or_index("the first that has a length"),
+      "The animation to play: several with commas between, or all, are played together.",
+      {"--clip", "NAME|INDEX|all"});
   row("fps", &S::frames_per_second, number({0.01, 1000, "24, or a sequence's own"}),
       "Frames per second; frame n stands at (n − 1)/fps seconds.", {"--fps", "N"});
   row("frames", &S::frames, frame_selection(),

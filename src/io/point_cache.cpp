@@ -29,6 +29,7 @@ struct Layout {
   std::uint64_t start = 0;  // of the first position, bytes
   double frames_per_second = default_frames_per_second;
   bool big_endian = false;
+  std::vector<double> times = {};  // the file's own, where it has usable ones
 };
 
 std::uint32_t word_of(const char* bytes, bool big_endian) {
@@ -88,6 +89,21 @@ Layout pc2_layout(File& file) {
           false};
 }
 
+// All times of an MDD, from the first on; none where they do not increase.
+void read_times(File& file, Layout& layout) {
+  std::vector<char> bytes(4 * static_cast<std::size_t>(layout.frames));
+  file.read(8, bytes);
+  for (std::size_t f = 0; f < layout.frames; ++f) {
+    const auto time = static_cast<double>(float_of(&bytes[4 * f], true));
+    const double from = static_cast<double>(float_of(bytes.data(), true));
+    if (!std::isfinite(time) || (f > 0 && time - from <= layout.times.back())) {
+      layout.times.clear();
+      return;
+    }
+    layout.times.push_back(time - from);
+  }
+}
+
 Layout mdd_layout(File& file) {
   std::array<char, 8> head{};
   if (file.size() < head.size()) file.fail("too short for an MDD point cache");
@@ -101,8 +117,10 @@ Layout mdd_layout(File& file) {
     const double duration =
         static_cast<double>(float_of(last.data(), true)) - static_cast<double>(float_of(first.data(), true));
     // Some writers leave the times 0: then the default rate stands.
-    if (duration > 0 && std::isfinite(duration))
+    if (duration > 0 && std::isfinite(duration)) {
       layout.frames_per_second = static_cast<double>(layout.frames - 1) / duration;
+      read_times(file, layout);
+    }
   }
   return layout;
 }
@@ -126,6 +144,12 @@ class PointFrames : public FrameSource {
   }
 
   double frames_per_second() const { return layout_.frames_per_second; }
+  std::vector<double> times() const {
+    std::vector<double> times = layout_.times;
+    for (std::size_t f = times.size(); f < count(); ++f)
+      times.push_back(static_cast<double>(f) / layout_.frames_per_second);
+    return times;
+  }
   std::size_t count() const override { return static_cast<std::size_t>(layout_.frames); }
 
   std::vector<glm::dvec3> read(std::size_t frame) const override {
@@ -269,7 +293,9 @@ void PointCacheWriter::commit() {
 
 VertexCache read_point_cache(const std::filesystem::path& path, const Model& model) {
   const auto frames = std::make_shared<const PointFrames>(path, model);
-  return VertexCache(frames, frames->frames_per_second());
+  VertexCache cache(frames, frames->frames_per_second());
+  cache.set_times(frames->times());
+  return cache;
 }
 
 }  // namespace plisse::io

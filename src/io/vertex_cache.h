@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace plisse::io {
@@ -34,6 +35,10 @@ class VertexCache {
   bool empty() const { return size() == 0; }
   std::size_t size() const;
   double frames_per_second() const { return frames_per_second_; }
+  // When the frames are, in seconds from the first, increasing: of point caches, which keep their times at
+  // any rate of playing. Empty: of sequences, whose frames are one picture each.
+  const std::vector<double>& times() const { return times_; }
+  void set_times(std::vector<double> times) { times_ = std::move(times); }
   // May be called from several threads; the frame stays alive with what is returned.
   Frame frame(std::size_t index) const;
 
@@ -41,6 +46,7 @@ class VertexCache {
   struct Kept;
   std::shared_ptr<Kept> kept_;  // shared by copies: they are of one content
   double frames_per_second_ = 24;
+  std::vector<double> times_;
 };
 
 }  // namespace plisse::io

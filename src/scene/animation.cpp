@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -40,17 +41,40 @@ bool finite(const glm::dmat4& m) {
   return true;
 }
 
-// Index of the chosen clip, −1 where the model has none and none was asked for.
-int choose_clip(const io::Model& model, const std::string& choice) {
-  if (choice.empty()) return model.clips.empty() ? -1 : 0;
-  std::vector<std::string> names;
-  for (const io::Clip& clip : model.clips) names.push_back(clip.name);
-  const auto named = std::find(names.begin(), names.end(), choice);
-  if (named != names.end()) return static_cast<int>(named - names.begin());
+// The first clip that lasts: poses that programs save as clips of no length are passed over, where others
+// follow.
+int first_clip(const io::Model& model) {
+  if (model.clips.empty()) return -1;
+  for (std::size_t c = 0; c < model.clips.size(); ++c) {
+    if (!(model.clips[c].duration > 0)) continue;
+    if (c > 0)
+      log::warn_once(
+          "clip " + model.path.string(),
+          fmt::format("{}: clip '{}' has no length and is passed over; '{}' is played (--clip chooses)",
+                      model.path.string(), model.clips[0].name, model.clips[c].name));
+    return static_cast<int>(c);
+  }
+  return 0;
+}
+
+// Index of the clip of this name or number, −1 where there is none.
+int find_clip(const io::Model& model, const std::string& choice) {
+  const auto named = std::find_if(model.clips.begin(), model.clips.end(),
+                                  [&](const io::Clip& clip) { return clip.name == choice; });
+  if (named != model.clips.end()) return static_cast<int>(named - model.clips.begin());
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-  if (error == std::errc{} && end == choice.data() + choice.size() && index < names.size())
+  if (error == std::errc{} && end == choice.data() + choice.size() && index < model.clips.size())
     return static_cast<int>(index);
+  return -1;
+}
+
+// Index of the chosen clip, −1 where the model has none and none was asked for.
+int choose_clip(const io::Model& model, const std::string& choice) {
+  if (choice.empty()) return first_clip(model);
+  if (const int found = find_clip(model, choice); found >= 0) return found;
+  std::vector<std::string> names;
+  for (const io::Clip& clip : model.clips) names.push_back(clip.name);
   if (names.empty())
     throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but the model has no clips",
                                                  model.path.string(), choice));
@@ -61,10 +85,85 @@ int choose_clip(const io::Model& model, const std::string& choice) {
                           config::did_you_mean(choice, names), fmt::join(listed, ", ")));
 }
 
+// Takes the track that `from` has over to `to`; true where both have it.
+template <typename Value>
+bool take(io::Keys<Value>& to, const io::Keys<Value>& from) {
+  if (from.times.empty()) return false;
+  if (!to.times.empty()) return true;
+  to = from;
+  return false;
+}
+
+// Clips played together, from the same beginning: actions of several objects. Where two of them move the same
+// part of a node, the first counts.
+io::Clip together(const io::Model& model, const std::vector<int>& clips) {
+  io::Clip result;
+  std::set<std::string> given_way;
+  for (const int c : clips) {
+    const io::Clip& clip = model.clips[static_cast<std::size_t>(c)];
+    result.name += (result.name.empty() ? "" : ",") + clip.name;
+    result.duration = std::max(result.duration, clip.duration);
+    for (const io::Channel& channel : clip.channels) {
+      auto known = std::find_if(result.channels.begin(), result.channels.end(),
+                                [&](const io::Channel& one) { return one.node == channel.node; });
+      if (known == result.channels.end()) {
+        result.channels.push_back(channel);
+        continue;
+      }
+      bool both = take(known->translation, channel.translation);
+      both |= take(known->rotation, channel.rotation);
+      both |= take(known->scale, channel.scale);
+      both |= take(known->morph_weights, channel.morph_weights);
+      if (both) given_way.insert(clip.name);
+    }
+  }
+  if (!given_way.empty())
+    log::warn(fmt::format("{}: clips that move the same nodes as one before them: '{}'; the first counts",
+                          model.path.string(), fmt::join(given_way, "', '")));
+  return result;
+}
+
+// The clip that is played; nothing where the model has none and none was asked for. "all", or several names
+// or numbers with commas between: together.
+std::optional<io::Clip> chosen_clip(const io::Model& model, const std::string& choice) {
+  std::vector<int> clips;
+  if (find_clip(model, choice) < 0 && !model.clips.empty()) {
+    if (choice == "all") {
+      for (std::size_t c = 0; c < model.clips.size(); ++c) clips.push_back(static_cast<int>(c));
+    } else if (choice.find(',') != std::string::npos) {
+      for (std::size_t at = 0; at <= choice.size();) {
+        const std::size_t end = std::min(choice.find(',', at), choice.size());
+        clips.push_back(
+            choose_clip(model, std::string(trimmed(std::string_view(choice).substr(at, end - at)))));
+        at = end + 1;
+      }
+    }
+  }
+  if (!clips.empty()) return together(model, clips);
+  const int clip = choose_clip(model, choice);
+  if (clip < 0) return std::nullopt;
+  return model.clips[static_cast<std::size_t>(clip)];
+}
+
+// contract.md, "Frames, time, units"; the 1e-3 allows for the rounding of durations in single precision.
+constexpr double time_rounding = 1e-3;  // of a frame
+int frames_of(const io::Model& model, const std::string& what, const Timeline& timeline) {
+  const double frames = std::floor(timeline.duration * timeline.frames_per_second + time_rounding) + 1;
+  if (!(frames < 1e9))
+    throw Error(ExitCode::bad_input, fmt::format("{}: {} of {} s has more frames than can be counted",
+                                                 model.path.string(), what, timeline.duration));
+  return static_cast<int>(frames);
+}
+
 Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames_per_second) {
   Timeline timeline;
   if (!model.cache.empty()) {
     timeline.frames_per_second = frames_per_second > 0 ? frames_per_second : model.cache.frames_per_second();
+    if (const std::vector<double>& times = model.cache.times(); !times.empty()) {
+      timeline.duration = times.back();
+      timeline.frame_count = frames_of(model, "the point cache", timeline);
+      return timeline;
+    }
     timeline.frame_count = static_cast<int>(model.cache.size());
     timeline.duration = (timeline.frame_count - 1) / timeline.frames_per_second;
     return timeline;
@@ -72,12 +171,7 @@ Timeline timeline_of(const io::Model& model, const io::Clip* clip, double frames
   if (frames_per_second > 0) timeline.frames_per_second = frames_per_second;
   if (clip == nullptr) return timeline;
   timeline.duration = clip->duration;
-  // contract.md, "Frames, time, units"; the 1e-3 allows for the rounding of durations in single precision.
-  const double frames = std::floor(timeline.duration * timeline.frames_per_second + 1e-3) + 1;
-  if (!(frames < 1e9))
-    throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' of {} s has more frames than can be counted",
-                                                 model.path.string(), clip->name, clip->duration));
-  timeline.frame_count = static_cast<int>(frames);
+  timeline.frame_count = frames_of(model, fmt::format("clip '{}'", clip->name), timeline);
   return timeline;
 }
 
@@ -231,9 +325,14 @@ struct Animation::Data {
     Pose pose;
     if (!cache.empty()) {
       pose.palette.assign(1, glm::dmat4{1});
-      const io::VertexCache::Frame positions = cache.frame(static_cast<std::size_t>(frame - 1));
+      const auto [before, part] = place_in_cache(frame);
+      const io::VertexCache::Frame positions = cache.frame(before);
       pose.cache.reserve(cache_index.size());
       for (const std::uint32_t v : cache_index) pose.cache.push_back((*positions)[v]);
+      if (part == 0) return pose;
+      const io::VertexCache::Frame next = cache.frame(before + 1);
+      for (std::size_t i = 0; i < cache_index.size(); ++i)
+        pose.cache[i] = glm::mix(pose.cache[i], (*next)[cache_index[i]], part);
       return pose;
     }
     const double time = timeline.time(frame);
@@ -250,6 +349,17 @@ struct Animation::Data {
       pose.morph_weights.push_back(weights[source.target]);
     }
     return pose;
+  }
+
+  // The cache's frame, from 0, and the part of the way to the next; 0 within the rounding of a file's times.
+  std::pair<std::size_t, double> place_in_cache(int frame) const {
+    const std::vector<double>& times = cache.times();
+    if (times.empty()) return {static_cast<std::size_t>(frame - 1), 0};
+    const double time = timeline.time(frame), near = time_rounding / timeline.frames_per_second;
+    const auto after = std::upper_bound(times.begin(), times.end(), time + near);
+    const auto before = static_cast<std::size_t>(after - times.begin()) - 1;
+    if (after == times.end() || time <= times[before] + near) return {before, 0};
+    return {before, (time - times[before]) / (times[before + 1] - times[before])};
   }
 
   // Replaces values that are not finite by those of the last pose.
@@ -346,12 +456,12 @@ std::vector<glm::dvec3> positions_of_file(const io::Model& model, const std::fil
 }  // namespace
 
 Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
-  const int clip = model.cache.empty() ? choose_clip(model, choice.clip) : -1;
+  const std::optional<io::Clip> clip =
+      model.cache.empty() ? chosen_clip(model, choice.clip) : std::optional<io::Clip>{};
   if (!model.cache.empty() && !choice.clip.empty())
     throw Error(ExitCode::bad_input, fmt::format("{}: clip '{}' asked for, but a sequence has no clips",
                                                  model.path.string(), choice.clip));
-  data_ = std::make_unique<Data>(model, choice,
-                                 clip < 0 ? nullptr : &model.clips[static_cast<std::size_t>(clip)]);
+  data_ = std::make_unique<Data>(model, choice, clip ? &*clip : nullptr);
   Data& data = *data_;
 
   Instances instances = gather_instances(model, data.rig, frame_times(data.timeline));

@@ -29,8 +29,9 @@ struct Timeline {
 };
 
 struct AnimationChoice {
-  std::string clip = {};         // name or index; empty: the first clip
-  double frames_per_second = 0;  // 0: 24 (a vertex cache keeps its own rate)
+  // Name or index, several with commas between, or "all"; empty: the first clip that has a length.
+  std::string clip = {};
+  double frames_per_second = 0;  // 0: 24, or a vertex cache's own rate
   std::string rest = "auto";     // auto | bind | frame:N | path of a model with the same vertices
   bool loop = false;
   Limits limits = {};  // of a file that `rest` names

@@ -155,7 +155,7 @@ TEST_F(GltfModes, NamesAndClipsWithoutLength) {
   ASSERT_EQ(model.clips.size(), 3U);
   EXPECT_EQ(model.clips[0].name, "clip 0");
   EXPECT_EQ(model.clips[0].duration, 0);
-  scene::Animation still(model, {});
+  scene::Animation still(model, {.clip = "0"});
   EXPECT_EQ(still.timeline().frame_count, 1);
   EXPECT_EQ(still.pose(1).palette.at(0)[3].y, 0);  // rests where its only frame has it
   EXPECT_EQ(still.surface().rest.at(0).y, 5);

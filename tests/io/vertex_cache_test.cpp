@@ -286,5 +286,23 @@ TEST_F(PointCaches, FramesStreamInAnyOrder) {
   EXPECT_EQ(first->at(0).x, 0);  // outlives its place in the cache
 }
 
+// Times of an MDD count from its first one; uneven ones are kept, useless ones make even steps.
+TEST_F(PointCaches, KeepTheirTimes) {
+  const auto times = [&](std::vector<float> of_file) {
+    Cache cache = rising(3);
+    cache.times = std::move(of_file);
+    ImportOptions options;
+    options.cache = write("cache.mdd", mdd(cache));
+    return import_model(obj(), options).cache.times();
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(times({2, 2.25F, 3}), ElementsAre(0, 0.25, 1));
+  EXPECT_THAT(times({0, 0, 0}), ElementsAre(0, 1 / 24.0, 2 / 24.0));
+  EXPECT_THAT(times({0, 2, 1}), ElementsAre(0, 0.5, 1));
+  ImportOptions options;
+  options.cache = write("cache.pc2", pc2(rising(3), 0.5F));
+  EXPECT_THAT(import_model(obj(), options).cache.times(), ElementsAre(0, 1 / 48.0, 2 / 48.0));
+}
+
 }  // namespace
 }  // namespace plisse::io

@@ -8,8 +8,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "io/import.h"
 #include "support/errors.h"
 #include "support/files.h"
@@ -349,6 +351,104 @@ TEST(Animation, KeepsTheOrderOfTheFile) {
                                               {1, 0, 0},
                                               {1, 1, 0},
                                               {0, 0, 0}}));
+}
+
+// Two squares with a fold of a right angle between them.
+TEST(Animation, FlatMeshesHaveTheNormalsOfTheirTriangles) {
+  io::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, -1}, {1, 1, -1}};
+  mesh.triangles = {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3};
+  mesh.flat = true;
+  mesh.targets = {{"wide", std::vector<glm::vec3>(6, {0, 0, 2})}};
+  const scene::Animation animation(model_of(mesh), {});
+  const Surface& surface = animation.surface();
+  // Waves cross the fold: what is welded stays so, in the file's order, with its targets.
+  EXPECT_EQ(surface.bind, mesh.positions);
+  EXPECT_EQ(surface.target_deltas, mesh.targets[0].position_deltas);
+  EXPECT_EQ(surface.render_vertices.size(), 8U);
+  for (std::size_t corner = 0; corner < surface.triangles.size(); ++corner) {
+    const glm::vec3 expected = corner < 6 ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+    EXPECT_EQ(surface.render_vertices[surface.triangles[corner]].normal, expected) << corner;
+  }
+  mesh.flat = false;
+  EXPECT_EQ(scene::Animation(model_of(mesh), {}).surface().render_vertices.size(), 6U);
+}
+
+TEST(Animation, ClipsWithoutLengthArePassedOver) {
+  io::Model model = model_of(strip(1));
+  model.path = "passed over";
+  model.clips = {clip_of(0, {}), clip_of(0, {}), clip_of(2, {}), clip_of(3, {})};
+  for (std::size_t c = 0; c < 4; ++c) model.clips[c].name = std::string(1, static_cast<char>('A' + c));
+  EXPECT_EQ(scene::Animation(model, {}).clip_name(), "C");
+  EXPECT_THAT(log::warnings(), testing::Contains(testing::HasSubstr(
+                                   "passed over: clip 'A' has no length and is passed over; 'C' is played")));
+  EXPECT_EQ(scene::Animation(model, {.clip = "A"}).clip_name(), "A");
+  EXPECT_EQ(scene::Animation(model, {.clip = "A"}).timeline().frame_count, 1);
+  model.clips.resize(2);
+  EXPECT_EQ(scene::Animation(model, {}).clip_name(), "A");
+}
+
+// Two strips, each with an action of its own.
+TEST(Animation, ClipsPlayTogether) {
+  io::Model model = model_of(strip(1));
+  model.path = "together";
+  model.nodes.push_back(model.nodes[0]);
+  const auto moving = [](int node, double to, double duration) {
+    io::Channel channel;
+    channel.node = node;
+    channel.translation.times = {0, duration};
+    channel.translation.values = {{0, 0, 0}, {0, to, 0}};
+    return channel;
+  };
+  model.clips = {clip_of(1, {moving(0, 10, 1)}), clip_of(2, {moving(1, 20, 2)}),
+                 clip_of(3, {moving(0, 99, 3)})};
+  for (std::size_t c = 0; c < 3; ++c) model.clips[c].name = std::string(1, static_cast<char>('A' + c));
+  const auto heights = [&](const std::string& clip) {
+    scene::Animation animation(model, {.clip = clip});
+    return std::pair(animation.node_matrix(0, 25)[3].y, animation.node_matrix(1, 25)[3].y);
+  };
+  EXPECT_EQ(heights("0"), std::pair(10.0, 0.0));
+  EXPECT_EQ(heights("A,B"), std::pair(10.0, 10.0));
+  EXPECT_EQ(heights("1, 2"), std::pair(33.0, 10.0));
+  EXPECT_EQ(scene::Animation(model, {.clip = "A,B"}).timeline().frame_count, 2 * 24 + 1);
+  EXPECT_EQ(heights("all"), std::pair(10.0, 10.0));
+  EXPECT_THAT(log::warnings(),
+              testing::Contains(testing::HasSubstr("move the same nodes as one before them: 'C'")));
+  EXPECT_THAT(test::error_of([&] { heights("A,D"); }), testing::HasSubstr("no clip 'D'"));
+  model.clips[2].name = "all";
+  EXPECT_EQ(heights("all"), std::pair(33.0, 0.0));
+}
+
+// A point cache of uneven times, played at other rates: its positions are those of its own times.
+TEST(Animation, CachesKeepTheirTimes) {
+  io::Model model = model_of(strip(1));
+  std::vector<std::vector<glm::dvec3>> frames;
+  for (const double height : {0.0, 1.0, 5.0}) {
+    frames.push_back(model.meshes[0].positions);
+    for (glm::dvec3& x : frames.back()) x.z = height;
+  }
+  model.cache = io::VertexCache(std::move(frames), 4);
+  const auto height = [&](double rate, int frame) {
+    scene::Animation animation(model, {.frames_per_second = rate});
+    return animation.pose(frame).cache[0].z;
+  };
+  const auto count = [&](double rate) {
+    return scene::Animation(model, {.frames_per_second = rate}).timeline().frame_count;
+  };
+  // A sequence has no times: frame by frame at any rate.
+  EXPECT_EQ(count(8), 3);
+  EXPECT_EQ(height(8, 2), 1);
+  model.cache.set_times({0, 0.25, 0.5});
+  EXPECT_EQ(count(0), 3);
+  EXPECT_EQ(height(0, 2), 1);
+  EXPECT_EQ(count(8), 5);
+  EXPECT_NEAR(height(8, 2), 0.5, rounding);
+  EXPECT_NEAR(height(8, 4), 3, rounding);
+  EXPECT_EQ(count(2), 2);
+  EXPECT_EQ(height(2, 2), 5);
+  model.cache.set_times({0, 0.125 + 1e-8, 0.5});  // a file's rounding is no way to the next frame
+  EXPECT_EQ(height(8, 2), 1);
+  EXPECT_NEAR(height(8, 3), 1 + 4 / 3.0, 1e-6);
 }
 
 }  // namespace
