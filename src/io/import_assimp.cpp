@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "io/collada_arrays.h"
+#include "io/collada_text.h"
 #include "io/import_assimp_parts.h"
 #include "io/import_place.h"
 #include "io/import_texture.h"
@@ -115,9 +117,12 @@ void read_cameras(const AssimpScene& from, Model& model) {
 // Opens what a model file names beside itself, and nothing elsewhere (inside_folder.h).
 class FolderOnly : public Assimp::DefaultIOSystem {
  public:
-  explicit FolderOnly(const std::filesystem::path& model) : model_(model) {}
+  // `text`: what is read in place of the model file's own bytes; empty: those.
+  FolderOnly(const std::filesystem::path& model, std::string text) : model_(model), text_(std::move(text)) {}
   bool Exists(const char* file) const override { return allowed(file) && DefaultIOSystem::Exists(file); }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (!text_.empty() && file == model_)
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
     return allowed(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
   }
 
@@ -130,6 +135,7 @@ class FolderOnly : public Assimp::DefaultIOSystem {
     return false;
   }
   std::filesystem::path model_;
+  std::string text_;
 };
 
 // assimp's own words, made fit to print: one line of it, and what they mean where they are a program's.
@@ -149,14 +155,18 @@ Error failure_of(const std::filesystem::path& path, std::string reason) {
 
 Model import_assimp(const std::filesystem::path& path, const ImportOptions& options) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new FolderOnly(path));  // which the importer owns
+  std::string text;
+  if (kind_of(path) == FileKind::collada) {
+    check_collada_arrays(path);
+    text = collada_text(path);
+  }
+  importer.SetIOHandler(new FolderOnly(path, std::move(text)));  // which the importer owns
   // FBX pivots stay apart, to be put together by read_nodes: assimp's own way loses the geometric transforms
   // of skins.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   // Files with a skeleton and no mesh get a dummy body otherwise.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  if (kind_of(path) == FileKind::collada) check_collada_arrays(path);
   note_reader("assimp");
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   note_reader("");
