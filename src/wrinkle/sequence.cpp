@@ -37,6 +37,8 @@ constexpr std::array<double, 6> tethers{0.03, 0.0075, 0.002, 0.0005, 0.0001, 0};
 // A span goes on beyond that, up to `worst`, since a change costs more: for some frames unlike fields are
 // shown at once.
 constexpr double most_excess = 1.08, worst = 1.5, most_share = 1e-3;
+// Of the clip's largest energy: what rounding makes of it.
+constexpr double nothing = 1e-14;
 
 double smooth(double t) {
   t = std::clamp(t, 0.0, 1.0);
@@ -179,10 +181,22 @@ bool FieldSequence::still(int a, int b) const {
   return moved_[static_cast<std::size_t>(a)] == moved_[static_cast<std::size_t>(b)];
 }
 
+FieldSequence::Alone FieldSequence::solved_alone(int frame, const FieldOptions& options) const {
+  const ClipFrame forms = clip_.frame(frame);
+  const Problem problem(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped);
+  if (!(developed_[static_cast<std::size_t>(frame)] > 0))
+    return {flat_field(clip_.topology), problem.energy(Eigen::VectorXd::Zero(problem.size())), 0};
+  const Field field =
+      solve_field(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped, options);
+  return {{field.whole.waves.amplitude, field.phase},
+          field.whole.energy - problem.relaxed_energy(),
+          field.iterations};
+}
+
 void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
   alone_.resize(key_frames_.size());
   FieldOptions options = options_.field;
-  // What is compared and carried on needs no more.
+  // What is compared needs no more.
   options.solve.kkt = std::max(options.solve.kkt, 1e-3);
   options.solve.energy = std::max(options.solve.energy, 1e-4);
   int done = 0, of = 1;
@@ -192,21 +206,7 @@ void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
     if (interrupted()) return;
     const int frame = key_frames_[k];
     if (k > 0 && still(key_frames_[k - 1], frame)) return;  // below
-    const ClipFrame forms = clip_.frame(frame);
-    const Problem problem(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped);
-    Alone& alone = alone_[k];
-    if (developed_[static_cast<std::size_t>(frame)] > 0) {
-      const Field field =
-          solve_field(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped, options);
-      alone = {{field.whole.waves.amplitude, field.phase},
-               field.whole.energy - problem.relaxed_energy(),
-               field.real.converged && field.whole.converged,
-               field.real.converged ? field.whole.reason : field.real.reason,
-               field.iterations};
-    } else {
-      alone.field = flat_field(clip_.topology);
-      alone.excess = problem.energy(Eigen::VectorXd::Zero(problem.size()));
-    }
+    alone_[k] = solved_alone(frame, options);
     const std::lock_guard lock(mutex);
     if (progress) progress(++done, of);
   });
@@ -241,12 +241,9 @@ FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const Coarse
     options.kkt *= little;
     options.energy *= little;
   }
-  std::optional<Tether> tied;
-  if (stiffness > 0) {
-    const Eigen::VectorXd to = problem.pack(carried(problem, near));
-    tied = Tether{to, stiffness * problem.taken_up(to)};
-  }
-  const Solution solution = wrinkle::solve(problem, start, options, tied);
+  const Eigen::VectorXd to = problem.pack(carried(problem, near));
+  const Tether tether{to, stiffness * problem.taken_up(to), nothing * most_};
+  const Solution solution = wrinkle::solve(problem, start, options, tether);
   key.energy = solution.energy;
   key.excess = solution.energy - problem.relaxed_energy();
   key.iterations = solution.iterations;
@@ -290,8 +287,10 @@ FieldSequence::Key FieldSequence::next_key(int key, int from, const Key& before)
 
 FieldSequence::Span FieldSequence::span_from(int anchor, const std::vector<int>& owner) const {
   const auto frame_of = [&](int k) { return key_frames_[static_cast<std::size_t>(k)]; };
-  const auto& alone = alone_[static_cast<std::size_t>(anchor)];
-  const Key first = nearest(clip_.frame(frame_of(anchor)), alone.field, alone.excess);
+  // Its topology is that of all others: solved to the end.
+  const Alone alone = solved_alone(frame_of(anchor), options_.field);
+  Key first = nearest(clip_.frame(frame_of(anchor)), alone.field, alone.excess);
+  first.iterations += alone.iterations;
   // Keys from the anchor on, it left out; and how many of them are covered.
   const auto walk = [&](int step, std::vector<Key>& keys, int& covered) {
     Key before = first;
@@ -413,7 +412,6 @@ SequenceFrame FieldSequence::of_span(int number, int n) const {
     result.converged = key.converged;
     result.reason = key.reason;
     if (kind != FrameKind::still) result.iterations = key.iterations;
-    if (kind == FrameKind::anchor) result.iterations += alone_[static_cast<std::size_t>(at)].iterations;
     return result;
   };
   if (frame_of(k) == n)

@@ -89,8 +89,6 @@ class FieldSequence {
   struct Alone {
     CoarseField field;
     double excess = 0;  // J, above the relaxed energy
-    bool converged = true;
-    std::string reason;
     int iterations = 0;
   };
   struct Key {
@@ -115,6 +113,7 @@ class FieldSequence {
   void measure();
   void place_keys();
   void solve_alone(const std::function<void(int, int)>& progress);
+  Alone solved_alone(int frame, const FieldOptions& options) const;
   void find_spans();
   void find_changes();
   Span span_from(int anchor, const std::vector<int>& owner) const;

@@ -323,7 +323,8 @@ class Descent {
       step = trial - x_;
       const double fall = model_.fall(step);
       const bool telling = lambda_ <= (options_.energy < loose ? telling_damping : telling_if_loose);
-      const bool little = stationary() && std::abs(fall) <= options_.energy * energy_;
+      const bool little =
+          stationary() && std::abs(fall) <= options_.energy * energy_ + (tether_ ? tether_->nothing : 0);
       // Or where the search creeps along a saddle so flat that many steps together gain nothing.
       if (little && (telling || ++creeping_ > most_creeping)) return end(true, "stationary");
       if (!little) creeping_ = 0;

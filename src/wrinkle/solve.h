@@ -14,6 +14,7 @@ namespace plisse::wrinkle {
 // stiffness ≥ 0 (Problem::taken_up, times a number).
 struct Tether {
   Eigen::VectorXd to, stiffness;
+  double nothing = 0;  // J: the search ends where this is all that a step would gain
 };
 
 struct SolveOptions {
