@@ -473,6 +473,10 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
                       frame.converged ? "" : "no step lowers its energy any more, or too many were needed");
     outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
   }
+  if (followed.strained != followed.bases)
+    log::warn(
+        "shells that are scaled as a whole are strained in files of base surfaces; 'plisse render --solve' "
+        "leaves that out");
   request.poses = std::move(followed.bases);
   const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
   if (report.interrupted) return 128 + signal_number();

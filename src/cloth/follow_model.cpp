@@ -90,14 +90,14 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
   return pieces;
 }
 
-// Whether the pose is the rest shape moved, turned and scaled as a whole, to the digits of single precision
-// that models have.
-bool similar(const Positions& rest, const Positions& pose) {
+// The factor by which the pose is the rest shape scaled as a whole, moved and turned, to the digits of single
+// precision that models have; 0: it is not.
+double similar(const Positions& rest, const Positions& pose) {
   const Eigen::Matrix4d moved = Eigen::umeyama(rest, pose, true);
-  if (!moved.allFinite()) return false;
+  if (!moved.allFinite()) return 0;
   const Positions there = (moved.topLeftCorner<3, 3>() * rest).colwise() + moved.topRightCorner<3, 1>();
   const double size = pose.cwiseAbs().maxCoeff() + moved.cwiseAbs().maxCoeff() * rest.cwiseAbs().maxCoeff();
-  return (there - pose).cwiseAbs().maxCoeff() <= 1e-6 * size;
+  return (there - pose).cwiseAbs().maxCoeff() <= 1e-6 * size ? moved.topLeftCorner<3, 1>().norm() : 0;
 }
 
 double median(std::vector<double> values) {
@@ -164,7 +164,7 @@ std::vector<shell::Followed> follow(const std::vector<Piece>& pieces, const Posi
   for (const Piece& piece : pieces) {
     if (interrupted()) return {};
     const Positions own = piece.part_of(pose);
-    if (similar(piece.rest, own))
+    if (similar(piece.rest, own) > 0)
       result.emplace_back().converged = true;
     else
       result.push_back(piece.follower->follow(own));
@@ -191,6 +191,20 @@ Positions put_together(const std::vector<Piece>& pieces, const std::vector<shell
     frame.iterations += part.iterations;
   }
   frame.moved_rms = std::sqrt(squares / static_cast<double>(base.cols()));
+  return base;
+}
+
+// A base surface on which shells that are scaled as a whole have their rest shape's size: else that would be
+// strain.
+Positions unscaled(const std::vector<Piece>& pieces, Positions base) {
+  for (const Piece& piece : pieces) {
+    const Positions own = piece.part_of(base);
+    const double scale = similar(piece.rest, own);
+    if (scale == 0 || std::abs(scale - 1) <= 1e-6) continue;
+    const Eigen::Vector3d middle = own.rowwise().mean();
+    for (std::size_t v = 0; v < piece.vertices.size(); ++v)
+      base.col(piece.vertices[v]) = middle + (own.col(static_cast<Eigen::Index>(v)) - middle) / scale;
+  }
   return base;
 }
 
@@ -284,6 +298,7 @@ FollowReport follow_model(const FollowRequest& request) {
   const SolvedCache cache(request.cache);
   const Hash shells = shells_hash(first.surface, rest_positions, pieces);
   report.bases.resize(count);
+  report.strained.resize(count);
   int done = 0;
   std::mutex telling;
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
@@ -295,7 +310,8 @@ FollowReport follow_model(const FollowRequest& request) {
         cached_bases(cache, reuse, shells, poses[n], [&] { return follow(pieces, poses[n]); });
     if (interrupted()) return;
     report.bases[n] = put_together(pieces, followed, poses[n], frame);
-    frame.length_kept = length_kept(first.surface.topology, rest_positions, report.bases[n]);
+    report.strained[n] = unscaled(pieces, report.bases[n]);
+    frame.length_kept = length_kept(first.surface.topology, rest_positions, report.strained[n]);
     frame.seconds = wall_seconds() - began;
     const std::lock_guard lock(telling);
     report.reuse.answers += reuse.answers;
@@ -304,7 +320,7 @@ FollowReport follow_model(const FollowRequest& request) {
   });
   report.interrupted = interrupted();
   if (report.interrupted) return report;
-  check_scale(first.surface, report.bases);
+  check_scale(first.surface, report.strained);
 
   first.surface.positions = report.bases.front();
   std::size_t most = 0;
@@ -324,7 +340,7 @@ FollowReport follow_model(const FollowRequest& request) {
   for (int k = 0; k < samples; ++k) {
     const auto n = static_cast<std::size_t>(k * (last - 1) / (samples - 1));
     if (k == 0 || n != static_cast<std::size_t>((k - 1) * (last - 1) / (samples - 1)))
-      of_clip.push_back(report.bases[n]);
+      of_clip.push_back(report.strained[n]);
   }
   first.material = material_for(report.wavelength, solve.tension_limit, first.surface, of_clip);
   return report;

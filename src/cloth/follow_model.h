@@ -38,7 +38,9 @@ struct FollowReport {
   // have their full length.
   WrinkleScene first;
   std::vector<shell::Positions> bases;  // of every frame of the clip
-  std::vector<FollowedFrame> frames;    // the same
+  // The same, but that shells which are only scaled as a whole have their size at rest: what fields are for.
+  std::vector<shell::Positions> strained;
+  std::vector<FollowedFrame> frames;  // the same
   std::size_t shells = 0;
   double follow = 0;      // m: Λ of the largest shell
   double wavelength = 0;  // m: what a material was chosen for, where no fabric was given

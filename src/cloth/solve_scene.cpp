@@ -69,7 +69,7 @@ Hash fields_hash(const FollowReport& followed) {
   hasher(first.surface.topology.faces, material.young, material.poisson, material.thickness,
          first.tension_limit);
   for (const shell::RestFace& face : first.surface.rest) hasher(face.edges);
-  for (const shell::Positions& base : followed.bases) hasher(base);
+  for (const shell::Positions& base : followed.strained) hasher(base);
   return hash;
 }
 
@@ -121,7 +121,7 @@ SolvedScene solve_scene(const SolveRequest& request) {
 
   WrinkleSequenceRequest fields;
   fields.each.scene = followed.first;
-  fields.poses = std::move(followed.bases);
+  fields.poses = std::move(followed.strained);
   fields.frames = fmt::format("1-{}", last);
   fields.on_field = [&](const WrinkleSequenceFrame& frame, const wrinkle::CoarseField& field) {
     KnownField found;

@@ -149,6 +149,26 @@ TEST_F(WrinkleModel, RenderSolvesInOneRun) {
   EXPECT_TRUE(read_text(folder_ / "scene/frame_0003.png") == read_text(folder_ / "whole/frame_0003.png"));
 }
 
+// A node that shrinks its whole mesh strains no cloth.
+TEST_F(WrinkleModel, ScaledAsAWholeIsNoStrain) {
+  for (int frame = 1; frame <= 2; ++frame) {
+    std::ofstream obj(folder_ / ("ball_000" + std::to_string(frame) + ".obj"));
+    const double s = frame == 1 ? 1 : 0.7;
+    for (const auto& [x, y, z] :
+         {std::array{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+      obj << "v " << s * x + frame << ' ' << s * y << ' ' << s * z << '\n';
+    for (const char* face : {"1 3 5", "3 2 5", "2 4 5", "4 1 5", "3 1 6", "2 3 6", "4 2 6", "1 4 6"})
+      obj << "f " << face << '\n';
+  }
+  const Outcome outcome = plisse({"render", file("ball_####.obj"), "--solve", "--size", "64x64", "-o",
+                                  file("frames"), "--json", file("report.json"), "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto last = report()["solve"]["frames"][1];
+  EXPECT_LT(last["compression"].get<double>(), 1e-5);  // of files with six digits
+  EXPECT_EQ(last["max_amplitude_m"], 0);
+  EXPECT_NEAR(last["length_kept"].get<double>(), 1, 1e-5);
+}
+
 TEST_F(WrinkleModel, SolveSaysWhatIsWrong) {
   write_sheets(2, 0.1);
   const auto error = [&](std::vector<std::string> arguments) {
