@@ -107,7 +107,7 @@ SolvedScene solve_scene(const SolveRequest& request) {
   if (scene.solve.method == config::SolveMethod::passes) return solved;
 
   const SolvedCache cache(request.cache);
-  const Hash clip_hash = fields_hash(followed);
+  const Hash clip_hash = fields_hash(followed).add(scene.solve.quality);
   const auto question = [&](int frame) { return Hash(clip_hash).add(frame); };
   bool all = cache.on();
   for (int n = 1; n <= last && all; ++n) {
@@ -122,6 +122,7 @@ SolvedScene solve_scene(const SolveRequest& request) {
   WrinkleSequenceRequest fields;
   fields.each.scene = followed.first;
   fields.poses = std::move(followed.strained);
+  if (scene.solve.quality == config::SolveQuality::draft) fields.quality = wrinkle::Quality::draft;
   fields.frames = fmt::format("1-{}", last);
   fields.on_field = [&](const WrinkleSequenceFrame& frame, const wrinkle::CoarseField& field) {
     KnownField found;

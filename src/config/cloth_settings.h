@@ -134,12 +134,14 @@ void bias_keys(Row& row) {
 }
 
 enum class SolveMethod { direct, passes };
+enum class SolveQuality { draft, final };
 
 // Wrinkles that are solved for (docs/wrinkle.md, "Any moving mesh"): a scene with this table is solved before
 // it is drawn.
 struct SolveSettings {
   bool on = false;  // the scene has the table, or --solve is given
   SolveMethod method = SolveMethod::direct;
+  SolveQuality quality = SolveQuality::final;
   std::string fabric;           // as parse_fabric takes it; empty: one whose waves have the wavelength
   double follow = -1;           // Λ, metres; −1: from the mesh; 0: nothing is handed to waves
   double tension_limit = 0.05;  // of λ₁, twice the Green strain; 0: none
@@ -154,6 +156,10 @@ void solve_keys(Row& row) {
       "or "
       "the waves of crush and relax against its rest pose, which cost less (passes).",
       {"--method", "direct|passes"});
+  row("quality", &S::quality,
+      enumeration<SolveQuality>({{"draft", SolveQuality::draft}, {"final", SolveQuality::final}}),
+      "Fields between the clip's keys are interpolated (draft), or solved as well (final).",
+      {"--quality", "draft|final"});
   row("fabric", &S::fabric, fabric_text("one is chosen"),
       "The cloth; without it one is chosen whose waves have the 'wavelength' of [wrinkles], in the median; "
       "without that, three mean edges of the rest pose.",

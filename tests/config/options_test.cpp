@@ -31,11 +31,12 @@ TEST(Options, EveryOptionOfTheContractIsThere) {
   std::vector<std::string> names;
   for (const config::SceneOption& option : config::scene_options()) names.push_back(option.name);
   // docs/contract.md, the line of `render`, those that concern the scene.
-  EXPECT_THAT(names, testing::UnorderedElementsAre(
-                         "--output", "--frames", "--fps", "--clip", "--size", "--samples", "--wavelength",
-                         "--profile", "--relax", "--rounds", "--interval", "--camera", "--background",
-                         "--only", "--exclude", "--method", "--fabric", "--follow", "--tension-limit",
-                         "--strength", "--rest", "--up", "--units", "--cache", "--limits"));
+  EXPECT_THAT(
+      names, testing::UnorderedElementsAre("--output", "--frames", "--fps", "--clip", "--size", "--samples",
+                                           "--wavelength", "--profile", "--relax", "--rounds", "--interval",
+                                           "--camera", "--background", "--only", "--exclude", "--method",
+                                           "--quality", "--fabric", "--follow", "--tension-limit",
+                                           "--strength", "--rest", "--up", "--units", "--cache", "--limits"));
 }
 
 TEST(Options, OverrideTheScene) {

@@ -456,6 +456,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"exclude", "[\"x\"]"},
                                                      {"mode", "\"descent\""},
                                                      {"method", "\"passes\""},
+                                                     {"quality", "\"draft\""},
                                                      {"name", "\"x\""},
                                                      {"blend", "\"linear\""},
                                                      {"gradient", "\"paper\""},
