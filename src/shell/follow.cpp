@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "base/error.h"
@@ -25,12 +26,13 @@ using Triplet = Eigen::Triplet<double>;
 // ½ xᵀ(F + cM)x − xᵀ(T + cMX), less what does not depend on x.
 class FollowTerm : public ShellTerm {
  public:
-  FollowTerm(const Eigen::SparseMatrix<double>& form, const VectorXd& tether, const Positions& pose,
-             const Positions& target)
-      : form_(form), pull_(target + pose * tether.asDiagonal()) {
+  FollowTerm(const Eigen::SparseMatrix<double>& form, const VectorXd& tether) : form_(form), tether_(tether) {
     for (Index v = 0; v < tether.size(); ++v) form_.coeffRef(v, v) += tether[v];
     sizes_ = form_.cwiseAbs();
   }
+  // X, and T: they may change from solve to solve, the Hessian does not.
+  void aim(const Positions& pose, const Positions& target) { pull_ = target + pose * tether_.asDiagonal(); }
+
   std::string_view name() const override { return "follow"; }
   void add(const Positions& x, EnergySum& energy, ForceSum* forces) const override {
     const Positions force = x * form_;
@@ -46,6 +48,7 @@ class FollowTerm : public ShellTerm {
 
  private:
   Eigen::SparseMatrix<double> form_, sizes_;  // and its absolute values
+  VectorXd tether_;
   Positions pull_;
 };
 
@@ -91,7 +94,10 @@ Matrix3d rotation_of(const Matrix3d& matrix) {
 
 Follower::Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
                    const FollowSettings& settings)
-    : topology_(std::move(topology)), rest_(std::move(rest)), settings_(settings) {
+    : topology_(std::move(topology)),
+      rest_(std::move(rest)),
+      settings_(settings),
+      idle_(std::make_unique<Idle>()) {
   const auto count = static_cast<Index>(topology_.vertex_count);
   if (rest_.size() != topology_.faces.size() || (rest_positions.size() > 0 && rest_positions.cols() != count))
     throw Error(ExitCode::bad_input,
@@ -191,6 +197,63 @@ Positions Follower::turned_curvature(const Positions& pose) const {
   return turned * curvature_;
 }
 
+// What a solve needs and the next can have again: everything but the pose.
+struct Follower::Workspace {
+  Shell shell;
+  Conditions conditions;
+  Loads loads;
+  FollowTerm* term = nullptr;  // of the potential
+  std::unique_ptr<Potential> potential;
+  Cholesky cholesky;
+  bool analysed = false;
+
+  Workspace(const Follower& follower, const VectorXd& tether)
+      : shell{follower.topology_,
+              follower.rest_,
+              follower.material_,
+              Stretching::tension_field,
+              Bending::off,
+              0,
+              follower.settings_.tension_limit,
+              {}},
+        conditions(follower.topology_.vertex_count) {
+    Potential::Terms terms;
+    terms.push_back(stretching_term({shell, conditions, loads, Vector3d::Zero(), follower.areas_}));
+    auto own = std::make_unique<FollowTerm>(follower.form_, tether);
+    term = own.get();
+    terms.push_back(std::move(own));
+    potential = std::make_unique<Potential>(shell, conditions, std::move(terms));
+  }
+};
+
+struct Follower::Idle {
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Workspace>> workspaces;
+};
+
+std::unique_ptr<Follower::Workspace> Follower::borrow() const {
+  {
+    const std::lock_guard lock(idle_->mutex);
+    if (!idle_->workspaces.empty()) {
+      auto own = std::move(idle_->workspaces.back());
+      idle_->workspaces.pop_back();
+      return own;
+    }
+  }
+  VectorXd tether = tether_ * areas_;
+  for (Index v = 0; v < tether.size(); ++v)
+    if (!(tether[v] > 0)) tether[v] = 1;  // a vertex without faces stays where it is
+  return std::make_unique<Workspace>(*this, tether);
+}
+
+void Follower::give_back(std::unique_ptr<Workspace> workspace) const {
+  const std::lock_guard lock(idle_->mutex);
+  idle_->workspaces.push_back(std::move(workspace));
+}
+
+Follower::Follower(Follower&&) noexcept = default;
+Follower::~Follower() = default;
+
 Followed Follower::follow(const Positions& pose) const {
   if (pose.cols() != areas_.size() || !pose.allFinite())
     throw Error(ExitCode::bad_input,
@@ -205,31 +268,21 @@ Followed Follower::follow(const Positions& pose) const {
   }
   const Vector3d origin = pose.rowwise().mean();  // near the shell rounding is least
   const Positions given = pose.colwise() - origin;
-  Shell shell{
-      topology_, rest_, material_, Stretching::tension_field, Bending::off, 0, settings_.tension_limit, {}};
-  const Conditions conditions(topology_.vertex_count);
-  const Loads loads;
-  VectorXd tether = tether_ * areas_;
-  for (Index v = 0; v < tether.size(); ++v)
-    if (!(tether[v] > 0)) tether[v] = 1;  // a vertex without faces stays where it is
+  std::unique_ptr<Workspace> own = borrow();
+  Potential& potential = *own->potential;
   Positions x = given, target = turned_curvature(given);
   for (int pass = 0; pass < settings_.passes; ++pass) {
     if (pass > 0) target = x * form_;
-    Potential::Terms terms;
-    terms.push_back(stretching_term({shell, conditions, loads, Vector3d::Zero(), areas_}));
-    terms.push_back(std::make_unique<FollowTerm>(form_, tether, given, target));
-    Potential potential(shell, conditions, std::move(terms));
-    Cholesky cholesky;
-    bool analysed = false;
+    own->term->aim(given, target);
     result.converged = false;
     VectorXd gradient;
     double energy = potential.value(x, &gradient).energy;
     for (int step = 0; step < settings_.max_iterations; ++step) {
       const Eigen::SparseMatrix<double>& hessian = potential.hessian(x, Curvature::positive);
-      if (!analysed) cholesky.analyse(hessian);
-      analysed = true;
-      if (!cholesky.factorise(hessian)) break;
-      const VectorXd direction = cholesky.solve(-gradient);
+      if (!own->analysed) own->cholesky.analyse(hessian);
+      own->analysed = true;
+      if (!own->cholesky.factorise(hessian)) break;
+      const VectorXd direction = own->cholesky.solve(-gradient);
       // E is convex and its tether strong: a Newton step that is nothing is the end.
       if (direction.cwiseAbs().maxCoeff() <= settings_.tolerance * settings_.wavelength) {
         result.converged = true;
@@ -261,6 +314,7 @@ Followed Follower::follow(const Positions& pose) const {
     }
     if (!result.converged) break;
   }
+  give_back(std::move(own));
   result.base = x.colwise() + origin;
   const Eigen::RowVectorXd moved = (result.base - pose).colwise().squaredNorm();
   double sum = 0, most = 0;

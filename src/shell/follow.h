@@ -14,6 +14,7 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "shell/material.h"
@@ -48,11 +49,18 @@ class Follower {
   Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
            const FollowSettings& settings);
 
+  Follower(Follower&&) noexcept;
+  ~Follower();
+
   // Throws Error(bad_input) where the pose has another number of vertices or is not finite. May be called
   // from several threads.
   Followed follow(const Positions& pose) const;
 
  private:
+  struct Workspace;  // what a solve works with, one for each that runs at the same time
+  struct Idle;
+  std::unique_ptr<Workspace> borrow() const;
+  void give_back(std::unique_ptr<Workspace> workspace) const;
   // What the rest shape's own curvature, turned with the pose, is for the bending: N a vertex, 3×V.
   Positions turned_curvature(const Positions& pose) const;
 
@@ -71,6 +79,7 @@ class Follower {
   std::vector<Eigen::Matrix3d>
       frames_;                        // of each rest face in space: its axes u, v and its normal; empty: flat
   Eigen::SparseMatrix<double> form_;  // their sum of squares, V×V, N/m
+  std::unique_ptr<Idle> idle_;
 };
 
 }  // namespace plisse::shell
