@@ -8,6 +8,8 @@
 
 #include "api/convert.h"
 #include "base/error.h"
+#include "base/log.h"
+#include "cloth/solve_scene.h"
 #include "config/options.h"
 #include "config/paint_file.h"
 #include "config/scene_file.h"
@@ -141,6 +143,15 @@ void take_scene(Request& request, const Scene& scene) {
       fields.push_back(api::to_io(scene.fields[f], fmt::format("wrinkle field {}", f + 1)));
     request.memory.fields = std::make_shared<const std::vector<io::WrinkleField>>(std::move(fields));
   }
+  if (!request.scene.solve.on) return;
+  if (!scene.frames.empty() || !scene.fields.empty())
+    throw Error(ExitCode::bad_input,
+                "scene: [solve] reads its model from a file; leave frames and fields out, or [solve]");
+  cloth::SolvedScene solved = cloth::solve_scene({request.scene, cloth::SolvedCache::user_folder(), {}});
+  for (const cloth::SolvedFrame& frame : solved.frames)
+    if (!frame.converged)
+      log::warn(fmt::format("frame {}: NOT CONVERGED: {}", frame.followed.frame, frame.reason));
+  request.memory = std::move(solved.memory);
 }
 
 std::optional<int> checked(std::optional<int> levels) {

@@ -100,7 +100,10 @@ int run_bake(Arguments& arguments) {
   pipeline::BakeRequest request = arguments.request();
   install_interrupt_handlers();
   SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
-  if (solved.interrupted) return 128 + signal_number();
+  if (solved.interrupted) {
+    write_report({{"interrupted", true}}, arguments.common.json());
+    return 128 + signal_number();
+  }
   request.memory = std::move(solved.memory);
   pipeline::BakeReport report;
   {

@@ -79,7 +79,10 @@ int run_export(Arguments& arguments) {
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
   SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
-  if (solved.interrupted) return 128 + signal_number();
+  if (solved.interrupted) {
+    write_report({{"interrupted", true}}, arguments.common.json());
+    return 128 + signal_number();
+  }
   request.memory = std::move(solved.memory);
   pipeline::ExportReport report;
   {

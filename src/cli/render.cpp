@@ -16,6 +16,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/solved_scene.h"
+#include "config/frames.h"
 #include "mesh/subdivide.h"
 #include "passes/aov.h"
 #include "pipeline/render.h"
@@ -161,8 +162,12 @@ int run_render(Arguments& arguments) {
 
   if (!arguments.common.json().empty() && arguments.common.json() != "-")
     check_writable(arguments.common.json());
+  if (request.scene.solve.on) check_writable(config::frame_path(request.scene.output.path, 1));
   SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
-  if (solved.interrupted) return 128 + signal_number();
+  if (solved.interrupted) {
+    write_report({{"interrupted", true}}, arguments.common.json());
+    return 128 + signal_number();
+  }
   request.memory = std::move(solved.memory);
   pipeline::RenderReport report;
   {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/log.h"
 #include "base/progress.h"
 #include "cloth/solve_scene.h"
@@ -34,9 +36,14 @@ SolvedRun SolveArguments::run(const config::SceneSettings& scene, const CommonAr
   if (!scene.solve.on) return run;
   cloth::SolvedScene solved;
   {
-    Progress progress(Progress::style_for_stderr(common.quiet()));
+    std::optional<Progress> progress;  // one a stage: each has a speed of its own
+    std::string stage;
     solved = cloth::solve_scene({scene, cache_.folder(), [&](std::string_view what, int done, int of) {
-                                   progress.update(done, of, std::string(what));
+                                   if (!progress || stage != what) {
+                                     stage = what;
+                                     progress.emplace(Progress::style_for_stderr(common.quiet()));
+                                   }
+                                   progress->update(done, of, stage);
                                  }});
   }
   run.memory = std::move(solved.memory);

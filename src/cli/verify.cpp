@@ -109,7 +109,10 @@ int run_verify(Arguments& arguments) {
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
   SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
-  if (solved.interrupted) return 128 + signal_number();
+  if (solved.interrupted) {
+    write_report({{"interrupted", true}}, arguments.common.json());
+    return 128 + signal_number();
+  }
   request.memory = std::move(solved.memory);
   pipeline::VerifyReport report;
   {
@@ -121,7 +124,7 @@ int run_verify(Arguments& arguments) {
   if (!solved.report.is_null()) json["solve"] = std::move(solved.report);
   write_report(json, arguments.common.json());
   if (report.interrupted) return 128 + signal_number();
-  return static_cast<int>(report.ok ? ExitCode::fine : ExitCode::check_failed);
+  return static_cast<int>(report.ok && solved.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
 }  // namespace

@@ -438,6 +438,9 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
   // All that can be wrong with what was asked for is told before the long part.
   cloth::WrinkleSequenceRequest request = sequence_request_of(arguments, std::move(each));
   cloth::FollowRequest follow = follow_request_of(arguments);
+  if (follow.scene.solve.quality == config::SolveQuality::draft) request.quality = wrinkle::Quality::draft;
+  if (follow.scene.solve.method != config::SolveMethod::direct)
+    log::warn("method of [solve] has no effect on 'plisse wrinkle', which writes fields");
   check_writable(scene);
   install_interrupt_handlers();
   cloth::FollowReport followed;

@@ -18,7 +18,8 @@ using shell::Face;
 bool has_area(const std::vector<glm::dvec3>& rest, const Face& face) {
   const glm::dvec3 a = rest[face[1]] - rest[face[0]], b = rest[face[2]] - rest[face[0]], c = b - a;
   const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
-  return glm::length(glm::cross(a, b)) > 1e-10 * longest;
+  constexpr double flattest = 1e-6;  // height over the longest side, of the digits of single precision
+  return glm::length(glm::cross(a, b)) > flattest * longest;
 }
 
 Face sorted(Face face) {
@@ -164,7 +165,10 @@ shell::Positions Cloth::places(const std::vector<glm::dvec3>& of_surface) const 
 
 Cloth cloth_of(const Surface& surface) {
   Cloth cloth;
+  std::vector<bool> others(surface.vertex_count(), false);
   for (const Part& part : surface.parts) {
+    for (std::uint32_t c = 3 * part.first_triangle; c < 3 * (part.first_triangle + part.triangle_count); ++c)
+      if (!part.wrinkles) others[surface.render_vertices[surface.triangles[c]].welded] = true;
     if (!part.wrinkles) continue;
     for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
       Face face;
@@ -209,6 +213,7 @@ Cloth cloth_of(const Surface& surface) {
     for (std::size_t c = 0; c < 3; ++c) sides.insert(side(c));
     face = own;
   }
+  for (const std::uint32_t v : cloth.welded) cloth.shared.push_back(others[v]);
   return cloth;
 }
 

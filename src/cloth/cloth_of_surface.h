@@ -15,8 +15,9 @@ struct Cloth {
   std::vector<shell::Face> faces;       // of vertices of the cloth
   std::vector<std::uint32_t> triangle;  // of each face: the surface's triangle
   std::vector<bool> turned;             // of each face: its corners 1 and 2 are the triangle's 2 and 1
+  std::vector<bool> shared;             // of each vertex: triangles that are not selected have it, too
   std::size_t without_area = 0;         // triangles that are left out
-  std::size_t cut = 0;                  // edges of three faces or more, at which sheets are parted
+  std::size_t cut = 0;                  // edges at which faces do not fit together, so that sheets are parted
 
   // Of the cloth's vertices, 3×V, from those of the surface.
   shell::Positions places(const std::vector<glm::dvec3>& of_surface) const;

@@ -47,7 +47,7 @@ struct Piece {
 
 std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<shell::RestFace>& rest,
                              const Positions& rest_positions, const config::SolveSettings& solve,
-                             double poisson, double edges, double& largest) {
+                             double poisson, double edges, const std::vector<bool>& held, double& largest) {
   std::vector<Piece> pieces(topology.component_count);
   std::vector<std::uint32_t> local(topology.vertex_count, 0);
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
@@ -84,8 +84,10 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
       largest = settings.wavelength;
     }
     const std::size_t vertex_count = piece.vertices.size();
+    std::vector<bool> own_held;
+    for (const std::uint32_t v : piece.vertices) own_held.push_back(held[v]);
     piece.follower.emplace(shell::build_topology(std::move(faces[p]), vertex_count), std::move(rests[p]),
-                           piece.rest, settings);
+                           piece.rest, settings, std::move(own_held));
   }
   return pieces;
 }
@@ -168,13 +170,13 @@ std::vector<shell::Followed> follow(const std::vector<Piece>& pieces, const Posi
       result.emplace_back().converged = true;
     else
       result.push_back(piece.follower->follow(own));
+    if (interrupted()) return {};
   }
   return result;
 }
 
 Positions put_together(const std::vector<Piece>& pieces, const std::vector<shell::Followed>& followed,
-                       const Positions& pose, FollowedFrame& frame) {
-  Positions base = pose;
+                       Positions base, FollowedFrame& frame) {
   double squares = 0;
   frame.converged = true;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -221,10 +223,10 @@ double length_kept(const shell::Topology& topology, const Positions& rest, const
 
 // Everything that the bases depend on beside the pose.
 Hash shells_hash(const wrinkle::BaseSurface& surface, const Positions& rest_positions,
-                 const std::vector<Piece>& pieces) {
+                 const std::vector<bool>& held, const std::vector<Piece>& pieces) {
   Hash hash = SolvedCache::question("bases");
   Hasher hasher(hash);
-  hasher(surface.topology.faces, rest_positions);
+  hasher(surface.topology.faces, rest_positions, held);
   for (const Piece& piece : pieces) hasher(piece.settings.wavelength);
   hasher(pieces.front().settings.tension_limit, pieces.front().settings.poisson);
   return hash;
@@ -235,10 +237,11 @@ Hash shells_hash(const wrinkle::BaseSurface& surface, const Positions& rest_posi
 void check_scale(const wrinkle::BaseSurface& surface, const std::vector<Positions>& bases) {
   constexpr double most = 10;
   std::vector<double> stretch;
-  for (const Positions& base : bases)
+  const std::size_t step = std::max<std::size_t>(bases.size() / 16, 1);  // some frames tell
+  for (std::size_t n = 0; n < bases.size(); n += step)
     for (std::size_t f = 0; f < surface.rest.size(); ++f) {
       const shell::Principal strain =
-          shell::principal_strain(surface.rest[f], shell::corners_of(surface.topology.faces[f], base));
+          shell::principal_strain(surface.rest[f], shell::corners_of(surface.topology.faces[f], bases[n]));
       stretch.push_back(std::sqrt(std::max(1 + strain.value[0], 0.0)));
     }
   const double middle = median(std::move(stretch));
@@ -270,7 +273,8 @@ FollowReport follow_model(const FollowRequest& request) {
   if (cloth.without_area > 0)
     log::warn(fmt::format("{} triangles without area are left out", cloth.without_area));
   if (cloth.cut > 0)
-    log::warn(fmt::format("sheets of cloth are parted at {} edges of three faces or more", cloth.cut));
+    log::warn(
+        fmt::format("sheets of cloth are parted at {} edges where faces do not fit together", cloth.cut));
   WrinkleScene& first = report.first;
   first.name = chosen.path.empty() ? chosen.garment.stem().string() : chosen.path.stem().string();
   first.chords = false;
@@ -278,7 +282,7 @@ FollowReport follow_model(const FollowRequest& request) {
   first.surface.topology = shell::build_topology(cloth.faces, cloth.welded.size());
   const Positions rest_positions = cloth.places(surface.rest);
   first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
-  first.held.assign(cloth.welded.size(), false);
+  first.held = cloth.shared;  // parts that are not selected stay as they are
   report.shells = first.surface.topology.component_count;
 
   // Poses one after the other, since an animation remembers what was last finite; bases on all cores.
@@ -286,17 +290,18 @@ FollowReport follow_model(const FollowRequest& request) {
   const auto count = static_cast<std::size_t>(last);
   std::vector<Positions> poses;
   bool simulated = false;
-  for (int n = 1; n <= last; ++n) {
+  for (int n = 1; n <= last && !interrupted(); ++n) {
     const scene::Pose pose = animation.pose(n);
     simulated = simulated || !pose.cache.empty();
     poses.push_back(cloth.places(scene::posed(surface, pose)));
     report.frames.push_back({.frame = n});
   }
   const shell::Material material = fabric.value_or(shell::Material{.young = 1e5, .poisson = 0.3});
-  const std::vector<Piece> pieces = pieces_of(first.surface.topology, first.surface.rest, rest_positions,
-                                              solve, material.poisson, simulated ? 8 : 4, report.follow);
+  const std::vector<Piece> pieces =
+      pieces_of(first.surface.topology, first.surface.rest, rest_positions, solve, material.poisson,
+                simulated ? 8 : 4, first.held, report.follow);
   const SolvedCache cache(request.cache);
-  const Hash shells = shells_hash(first.surface, rest_positions, pieces);
+  const Hash shells = shells_hash(first.surface, rest_positions, first.held, pieces);
   report.bases.resize(count);
   report.strained.resize(count);
   int done = 0;
@@ -309,7 +314,7 @@ FollowReport follow_model(const FollowRequest& request) {
     const auto followed =
         cached_bases(cache, reuse, shells, poses[n], [&] { return follow(pieces, poses[n]); });
     if (interrupted()) return;
-    report.bases[n] = put_together(pieces, followed, poses[n], frame);
+    report.bases[n] = put_together(pieces, followed, std::move(poses[n]), frame);
     report.strained[n] = unscaled(pieces, report.bases[n]);
     frame.length_kept = length_kept(first.surface.topology, rest_positions, report.strained[n]);
     frame.seconds = wall_seconds() - began;

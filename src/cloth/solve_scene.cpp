@@ -110,14 +110,20 @@ SolvedScene solve_scene(const SolveRequest& request) {
   const Hash clip_hash = fields_hash(followed).add(scene.solve.quality);
   const auto question = [&](int frame) { return Hash(clip_hash).add(frame); };
   bool all = cache.on();
+  Reuse fields_reuse;  // counted only where it spares the solve
   for (int n = 1; n <= last && all; ++n) {
-    const auto known = answered<KnownField>(cache, question(n), solved.reuse);
+    const auto known = answered<KnownField>(cache, question(n), fields_reuse);
     all = known.has_value();
     if (known)
       take(*known, clip->frames[static_cast<std::size_t>(n - 1)],
            solved.frames[static_cast<std::size_t>(n - 1)]);
   }
-  if (all) return solved;
+  if (all) {
+    solved.reuse.answers += fields_reuse.answers;
+    solved.reuse.saved_s += fields_reuse.saved_s;
+    warn_of_bases(followed.first, followed.strained, last);
+    return solved;
+  }
 
   WrinkleSequenceRequest fields;
   fields.each.scene = followed.first;

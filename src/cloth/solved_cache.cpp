@@ -109,6 +109,9 @@ void SolvedCache::keep(const Hash& question, std::span<const std::uint8_t> answe
     log::info(error.what());
     return;
   }
+  // Looking through the folder for each would make long clips slow.
+  if ((fresh_ += bytes.size()) < std::min(most_fresh_, most_bytes_ / 16)) return;
+  fresh_ = 0;
   make_room();
 }
 

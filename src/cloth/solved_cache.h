@@ -5,6 +5,7 @@
 // well.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -46,6 +47,8 @@ class SolvedCache {
   std::filesystem::path file_of(const Hash& question) const;
   void make_room() const;
   std::filesystem::path folder_;
+  mutable std::atomic<std::uintmax_t> fresh_ = most_fresh_;  // bytes since room was made; at first, at once
+  static constexpr std::uintmax_t most_fresh_ = std::uintmax_t{64} << 20;
   std::uintmax_t most_bytes_;
 };
 

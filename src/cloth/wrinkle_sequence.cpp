@@ -97,7 +97,29 @@ fs::path numbered(const fs::path& pattern, int frame) {
   return pattern.empty() ? pattern : fs::path(config::numbered_path(pattern.string(), frame));
 }
 
+// Each kind of fault is told once, or long clips would drown in them.
+class ToldFaults {
+ public:
+  void tell(int frame, const shell::Topology& topology, const std::vector<wrinkle::FaceForms>& forms) {
+    for (const wrinkle::BaseFault& fault : wrinkle::base_faults(topology, forms))
+      if (kinds_.insert(fault.kind).second) log::warn(fmt::format("frame {}: {}", frame, fault.text));
+  }
+
+ private:
+  std::set<std::string> kinds_;
+};
+
 }  // namespace
+
+void warn_of_bases(const WrinkleScene& first, const std::vector<shell::Positions>& poses, int last) {
+  WrinkleRequest each;
+  each.scene = first;
+  ToldFaults told;
+  for (int n = 1; n <= last; ++n) {
+    each.scene.surface.positions = poses[static_cast<std::size_t>(n - 1)];
+    told.tell(n, first.surface.topology, forms_of(each));
+  }
+}
 
 WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   const double began = wall_seconds();
@@ -117,7 +139,7 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
   options.fade = request.fade;
   options.quality = request.quality;
   WrinkleSequenceReport report;
-  std::set<std::string> told;  // kinds of faults
+  ToldFaults told;
   report.vertices = topology.vertex_count;
   report.faces = topology.faces.size();
   const auto request_of = [&](int n) {
@@ -162,9 +184,7 @@ WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request) {
       const auto& [one, forms, solved_frame] = ready[i];
       WrinkleSequenceFrame frame = solved_frame;
       const int n = frame.frame;
-      for (const wrinkle::BaseFault& fault : wrinkle::base_faults(topology, forms.forms))
-        if (told.insert(fault.kind).second)  // once, or long clips would drown in them
-          log::warn(fmt::format("frame {}: {}", n, fault.text));
+      told.tell(n, topology, forms.forms);
       frame.wrinkle_free_faces =
           static_cast<std::size_t>(std::count(forms.wrinkle_free.begin(), forms.wrinkle_free.end(), true));
       wrinkle::CoarseField field = std::move(frame.solved.field);

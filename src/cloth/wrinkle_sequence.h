@@ -55,6 +55,10 @@ struct WrinkleSequenceReport {
   double wall_s = 0;
 };
 
+// Tells, as wrinkle_sequence does, what the base surfaces of frames 1 … last have that no field can stand on:
+// each kind once, for the first frame that has it.
+void warn_of_bases(const WrinkleScene& first, const std::vector<shell::Positions>& poses, int last);
+
 // Throws Error, (bad_input) also where frames have different meshes.
 WrinkleSequenceReport wrinkle_sequence(const WrinkleSequenceRequest& request);
 

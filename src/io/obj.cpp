@@ -81,7 +81,7 @@ class Reader {
     }
     if (count < 3) return;
     if (count == 3) values[3] = 1;
-    file_.colours.resize(file_.positions.size() - 1, glm::vec4(1));
+    file_.colours.resize(file_.positions.size() - 1, without);
     file_.colours.emplace_back(glm::dvec4(values[0], values[1], values[2], values[3]));
   }
 
@@ -96,16 +96,20 @@ class Reader {
   }
 
   // One colour a vertex, from 0 to 1. Some programs write them from 0 to 255.
+  static constexpr glm::vec4 without{-1, -1, -1, -1};  // of vertices that have no colour
   void finish_colours() {
     if (file_.colours.empty() && painted_.size() == file_.positions.size())
       file_.colours = std::move(painted_);
     if (file_.colours.empty()) return;
     float most = 0;
     for (const glm::vec4& colour : file_.colours) most = std::max({most, colour.r, colour.g, colour.b});
-    if (most > 1.5F)
-      for (glm::vec4& colour : file_.colours)
+    file_.colours.resize(file_.positions.size(), without);
+    for (glm::vec4& colour : file_.colours) {
+      if (colour == without)
+        colour = glm::vec4(1);
+      else if (most > 1.5F)
         colour = {glm::vec3(colour) / 255.0F, colour.a > 1 ? colour.a / 255 : colour.a};
-    file_.colours.resize(file_.positions.size(), glm::vec4(1));
+    }
   }
 
   // A run that nothing belongs to is not kept.

@@ -133,8 +133,13 @@ std::optional<io::Clip> chosen_clip(const io::Model& model, const std::string& c
     } else if (choice.find(',') != std::string::npos) {
       for (std::size_t at = 0; at <= choice.size();) {
         const std::size_t end = std::min(choice.find(',', at), choice.size());
-        clips.push_back(
-            choose_clip(model, std::string(trimmed(std::string_view(choice).substr(at, end - at)))));
+        const std::string name(trimmed(std::string_view(choice).substr(at, end - at)));
+        if (name.empty())
+          throw Error(ExitCode::bad_input,
+                      fmt::format("{}: clips '{}' asked for, with no name between commas",
+                                  model.path.string(), choice));
+        const int clip = choose_clip(model, name);
+        if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
         at = end + 1;
       }
     }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "shell/bending_quadratic.h"
 #include "shell/cholesky.h"
 #include "shell/energy_terms.h"
@@ -93,10 +94,11 @@ Matrix3d rotation_of(const Matrix3d& matrix) {
 }  // namespace
 
 Follower::Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
-                   const FollowSettings& settings)
+                   const FollowSettings& settings, std::vector<bool> held)
     : topology_(std::move(topology)),
       rest_(std::move(rest)),
       settings_(settings),
+      held_(std::move(held)),
       idle_(std::make_unique<Idle>()) {
   const auto count = static_cast<Index>(topology_.vertex_count);
   if (rest_.size() != topology_.faces.size() || (rest_positions.size() > 0 && rest_positions.cols() != count))
@@ -217,6 +219,8 @@ struct Follower::Workspace {
               follower.settings_.tension_limit,
               {}},
         conditions(follower.topology_.vertex_count) {
+    for (std::uint32_t v = 0; v < follower.held_.size(); ++v)
+      if (follower.held_[v]) conditions.hold(v, Vector3d::Zero());  // where each pose has it, not there
     Potential::Terms terms;
     terms.push_back(stretching_term({shell, conditions, loads, Vector3d::Zero(), follower.areas_}));
     auto own = std::make_unique<FollowTerm>(follower.form_, tether);
@@ -277,7 +281,7 @@ Followed Follower::follow(const Positions& pose) const {
     result.converged = false;
     VectorXd gradient;
     double energy = potential.value(x, &gradient).energy;
-    for (int step = 0; step < settings_.max_iterations; ++step) {
+    for (int step = 0; step < settings_.max_iterations && !interrupted(); ++step) {
       const Eigen::SparseMatrix<double>& hessian = potential.hessian(x, Curvature::positive);
       if (!own->analysed) own->cholesky.analyse(hessian);
       own->analysed = true;

@@ -28,8 +28,7 @@ struct FollowSettings {
   double poisson = 0.3;
   double tension_limit = 0.05;  // of StretchingLaw; 0: none
   // Curvature that the first solution has is the second's target: a tube of n edges, sewn from flat panels,
-  // keeps 1/(1
-  // + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.
+  // keeps g = 1/(1 + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.
   int passes = 2;
   int max_iterations = 200;
   double tolerance = 1e-8;  // converged where no vertex moves by more than this share of Λ
@@ -46,8 +45,9 @@ class Follower {
  public:
   // rest_positions: where the rest shape is in space, 3×V, whose curvature the base keeps; empty: flat
   // panels. Throws Error(bad_input) where counts do not agree.
+  // held: one flag a vertex that stays where the pose has it; may be empty.
   Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
-           const FollowSettings& settings);
+           const FollowSettings& settings, std::vector<bool> held = {});
 
   Follower(Follower&&) noexcept;
   ~Follower();
@@ -67,6 +67,7 @@ class Follower {
   Topology topology_;
   std::vector<RestFace> rest_;
   FollowSettings settings_;
+  std::vector<bool> held_;
   Material material_;      // of unit thickness and stiffness, with Poisson's ratio
   double tether_ = 0;      // c, N/m³
   Eigen::VectorXd areas_;  // m_i, m²

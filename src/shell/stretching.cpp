@@ -35,7 +35,7 @@ StretchingDensity limited_density(const Material& m, double s, double l1, double
       quarter * (s * l1 + other * l2 - (s * s + other * other - 2 * m.poisson * s * other) / (2 * m.young));
   d.first = quarter * Vector2d(s, other);
   if (other == free) d.second(1, 1) = quarter * m.young;
-  if (other < s) d.shear = (d.first[0] - d.first[1]) / (l1 - l2);  // σ₁ > σ₂ only where λ₁ > λ₂
+  if (other < s && l1 > l2) d.shear = (d.first[0] - d.first[1]) / (l1 - l2);  // σ₁ > σ₂ only where λ₁ > λ₂
   return d;
 }
 

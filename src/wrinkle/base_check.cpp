@@ -84,10 +84,8 @@ std::vector<BaseFault> base_faults(const shell::Topology& topology, const std::v
         {"kinks",
          fmt::format(
              "the tension field kinks: crests of neighbouring faces meet at more than 45 degrees on "
-             "{:.1f} % of the area, where waves cannot follow them; what helps: where it is draped, solving "
-             "to "
-             "the end or a little residual stiffness (drape --residual 1e-3), where it follows a model, a "
-             "larger --follow",
+             "{:.1f} % of the area, where waves cannot follow them; a larger --follow helps, and where the "
+             "surface is draped, solving to the end or drape --residual 1e-3",
              100 * kinks / area)});
   if (crest > worth * area)
     faults.push_back(

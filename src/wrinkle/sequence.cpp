@@ -237,7 +237,7 @@ FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const Coarse
   lower(problem, start);
   // What is little beside the clip's energy need not be exact for itself.
   if (alone < most_share * most_) {
-    const double little = std::min(most_share * most_ / alone, 1e3);
+    const double little = alone > 0 ? std::min(most_share * most_ / alone, 1e3) : 1e3;
     options.kkt *= little;
     options.energy *= little;
   }
@@ -428,7 +428,8 @@ SequenceFrame FieldSequence::of_span(int number, int n) const {
   const double whole = std::abs(way(frame_of(far)) - way(frame_of(near)));
   const double share = alone       ? 0
                        : whole > 0 ? std::abs(way(n) - way(frame_of(near))) / whole
-                                   : std::abs(n - frame_of(near)) / std::abs(frame_of(far) - frame_of(near));
+                                   : static_cast<double>(std::abs(n - frame_of(near))) /
+                                         std::abs(frame_of(far) - frame_of(near));
   const CoarseField between =
       alone ? key_at(k).field : interpolated(clip_.topology, key_at(near).field, key_at(far).field, share);
   const ClipFrame forms = clip_.frame(n);

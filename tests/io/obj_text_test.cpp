@@ -147,6 +147,7 @@ TEST_F(ObjText, ColoursOfVertices) {
   };
   check("v 0 0 0 1 0 0\nv 1 0 0 .5 .5 .5\nv 1 1 0\nf 1 2 3\n", {red, half, white});
   check("v 0 0 0 255 0 0\nv 1 0 0 127.5 127.5 127.5\nv 1 1 0 255 255 255\nf 1 2 3\n", {red, half, white});
+  check("v 0 0 0 255 0 0\nv 1 0 0\nv 1 1 0 255 255 255\nf 1 2 3\n", {red, white, white});
   check("v 0 0 0\nv 1 0 0\nv 1 1 0\n#MRGB ffff0000ff808080\n#MRGB ffffffff\nf 1 2 3\n", {red, half, white});
   check("v 0 0 0 1 0 0 .25\nv 1 0 0 1 1 1 1\nv 1 1 0\nf 1 2 3\n", {glm::vec4(1, 0, 0, 0.25), white, white});
   check("v 0 0 0 1\nv 1 0 0 2\nv 1 1 0 1\nf 1 2 3\n", {});  // weights

@@ -90,7 +90,7 @@ TEST_F(WrinkleModel, FacesThatAreNoShellArePartedOrLeftOut) {
   const Outcome outcome =
       plisse({"wrinkle", file("sheet_0001.obj"), "-o", file("waves"), "--json", file("report.json")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("parted at 1 edges"));
+  EXPECT_THAT(outcome.err, HasSubstr("parted at 1 edges where faces"));
   EXPECT_EQ(report()["shells"], 2);
   EXPECT_FALSE(report()["warnings"].empty());
 }
@@ -147,6 +147,41 @@ TEST_F(WrinkleModel, RenderSolvesInOneRun) {
          "[96, 80]\n";
   ASSERT_EQ(plisse({"render", file("scene.toml"), "--frames", "3", "-o", file("scene"), "-q"}).code, 0);
   EXPECT_TRUE(read_text(folder_ / "scene/frame_0003.png") == read_text(folder_ / "whole/frame_0003.png"));
+}
+
+// Triangles that are not selected keep their shape also where they share vertices with the cloth.
+TEST_F(WrinkleModel, WhatIsNotSelectedStaysToItsBorder) {
+  write_sheets(3, 0.1);
+  std::vector<double> z;  // of the row between, as the file has it
+  for (int frame = 1; frame <= 3; ++frame) {
+    const auto path = folder_ / ("sheet_000" + std::to_string(frame) + ".obj");
+    std::istringstream all(read_text(path));
+    std::ofstream obj(path);
+    int faces = 0, vertices = 0;
+    for (std::string line; std::getline(all, line);) {
+      if (line.starts_with("v ") && ++vertices > 210 && vertices <= 231 && frame == 3)
+        z.push_back(std::stod(line.substr(line.rfind(' '))));
+      if (line.starts_with("f ") && faces++ % 200 == 0) obj << (faces == 1 ? "o cloth\n" : "o hard\n");
+      obj << line << '\n';
+    }
+  }
+  ASSERT_EQ(
+      plisse({"export", file("sheet_####.obj"), "--solve", "--exclude", "hard", "--strength", "0", "--levels",
+              "0", "--frames", "3", "-o", file("base.obj"), "-q", "--json", file("report.json")})
+          .code,
+      0);
+  EXPECT_GT(report()["solve"]["frames"][2]["moved_rms_m"].get<double>(), 1e-3);  // the cloth itself moved
+  std::istringstream base(read_text(folder_ / "base.obj"));
+  std::vector<double> found;
+  for (std::string line; std::getline(base, line);) {
+    double x = 0, y = 0, height = 0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &height) == 3 && std::abs(y - 0.5) < 1e-6)
+      found.push_back(height);
+  }
+  ASSERT_EQ(z.size(), 21U);
+  ASSERT_GE(found.size(), 21U);
+  for (const double height : found)
+    EXPECT_NEAR(std::abs(height), std::abs(z[0]), 1e-6);  // a zigzag of one height
 }
 
 // A node that shrinks its whole mesh strains no cloth.
