@@ -297,17 +297,23 @@ class Gatherer {
     }
   }
 
+  // What each vertex has, but for its normal and its number.
+  template <typename Work>
+  void each_array(const Work& work) {
+    work(result_.vertices.positions);
+    work(result_.vertices.influences);
+    work(result_.uvs);
+    work(result_.normal_uvs);
+    work(result_.colours);
+    work(result_.cache_index);
+  }
+
   void copy(std::uint32_t vertex, const glm::dvec3& normal) {
     const auto again = [&](auto& items) {
       const auto item = items[vertex];
       items.push_back(item);
     };
-    again(result_.vertices.positions);
-    again(result_.vertices.influences);
-    again(result_.uvs);
-    again(result_.normal_uvs);
-    again(result_.colours);
-    again(result_.cache_index);
+    each_array(again);
     if (numbers_.size() == result_.normals.size()) again(numbers_);
     result_.normals.push_back(normal);
     copies_.push_back({static_cast<std::uint32_t>(result_.normals.size() - 1), vertex});
@@ -328,13 +334,8 @@ class Gatherer {
       for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = items[order[i]];
       items = std::move(arranged);
     };
-    arrange(result_.vertices.positions);
-    arrange(result_.vertices.influences);
+    each_array(arrange);
     arrange(result_.normals);
-    arrange(result_.uvs);
-    arrange(result_.normal_uvs);
-    arrange(result_.colours);
-    arrange(result_.cache_index);
     for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
     for (std::uint32_t& corner : result_.triangles) corner = place[corner];
     for (Deltas& instance : deltas_)
