@@ -148,11 +148,16 @@ void FieldSequence::measure() {
     most.strain = std::max(most.strain, size.strain);
     most.second_form = std::max(most.second_form, size.second_form);
   }
+  double drift = 0, bending = 0;  // since the last frame that moved, or a slow clip would never move
   for (std::size_t n = 1; n < count; ++n) {
     const double strain = std::max({sizes[n - 1].strain, sizes[n].strain, calm * most.strain});
     change_[n] = strain > 0 ? steps[n].strain / strain : 0;
     const double bent = calm * most.second_form;
-    moved_[n] = moved_[n - 1] + (change_[n] > same || steps[n].second_form > same * bent || other_faces[n]);
+    drift += change_[n];
+    bending += steps[n].second_form;
+    const bool moves = drift > same || bending > same * bent || other_faces[n];
+    if (moves) drift = bending = 0;
+    moved_[n] = moved_[n - 1] + moves;
   }
   way_.resize(count, 0);
   std::partial_sum(change_.begin(), change_.end(), way_.begin());
