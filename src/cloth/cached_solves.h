@@ -1,5 +1,5 @@
-// find_equilibrium and solve_field with a cache, so that base surfaces and wrinkle fields are solved only
-// once.
+// find_equilibrium, solve_field and the follower with a cache, so that base surfaces and wrinkle fields are
+// solved only once.
 #pragma once
 
 #include <functional>

@@ -3,8 +3,8 @@
 // Projected Newton methods for optimization problems with simple constraints, 1982):
 //
 // - the first few are projected Newton steps: each face's own part of the Hessian is made positive
-// semidefinite,
-//   and the step is taken whole where that lowers the energy. They go far, and choose among the many minima.
+//   semidefinite, and the step is taken whole where that lowers the energy. They go far, and choose among the
+//   many minima.
 // - all others are of a trust region, (H + λM) s = −g (K. Levenberg 1944, D. Marquardt 1963; J. Moré and
 //   D. Sorensen, Computing a trust region step, 1983), where M measures a change of waves by the waves
 //   themselves. Along the soft directions of long waves, where heights make up for frequencies, steps are as
