@@ -152,9 +152,8 @@ void solve_keys(Row& row) {
   using S = SolveSettings;
   row("method", &S::method,
       enumeration<SolveMethod>({{"direct", SolveMethod::direct}, {"passes", SolveMethod::passes}}),
-      "What is drawn on the base surface that follows the model: the field that is solved for it (direct), "
-      "or "
-      "the waves of crush and relax against its rest pose, which cost less (passes).",
+      "What is drawn on the base surface that follows the model: its solved field (direct), or the waves of "
+      "crush and relax against its rest pose, which cost less (passes).",
       {"--method", "direct|passes"});
   row("quality", &S::quality,
       enumeration<SolveQuality>({{"draft", SolveQuality::draft}, {"final", SolveQuality::final}}),
