@@ -229,33 +229,38 @@ bool Cholesky::factorise(const Eigen::SparseMatrix<double>& lower) {
   return positive;
 }
 
-Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& right) const {
-  Eigen::VectorXd x(right.size());
-  for (Eigen::Index i = 0; i < right.size(); ++i) x[place_[static_cast<std::size_t>(i)]] = right[i];
+template <int Columns>
+Eigen::Matrix<double, Eigen::Dynamic, Columns> Cholesky::solve_columns(
+    const Eigen::Matrix<double, Eigen::Dynamic, Columns>& right) const {
+  Eigen::Matrix<double, Eigen::Dynamic, Columns> x(right.rows(), Columns), below;
+  for (Eigen::Index i = 0; i < right.rows(); ++i) x.row(place_[static_cast<std::size_t>(i)]) = right.row(i);
   const auto panel_of = [&](const Supernode& node) {
     return Eigen::Map<const MatrixXd>(&panels_[node.panel], static_cast<Eigen::Index>(node.height()),
                                       node.width);
   };
-  Eigen::VectorXd below;
   for (const Supernode& node : nodes_) {
     const auto panel = panel_of(node);
-    auto own = x.segment(node.first, node.width);
-    panel.topRows(node.width).triangularView<Eigen::Lower>().solveInPlace(own);
+    auto own = x.middleRows(node.first, node.width);
+    panel.topRows(node.width).template triangularView<Eigen::Lower>().solveInPlace(own);
     below.noalias() = panel.bottomRows(panel.rows() - node.width) * own;
-    for (std::size_t r = 0; r < node.rows.size(); ++r) x[node.rows[r]] -= below[static_cast<Eigen::Index>(r)];
+    for (std::size_t r = 0; r < node.rows.size(); ++r)
+      x.row(node.rows[r]) -= below.row(static_cast<Eigen::Index>(r));
   }
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     const auto panel = panel_of(*node);
-    below.resize(static_cast<Eigen::Index>(node->rows.size()));
+    below.resize(static_cast<Eigen::Index>(node->rows.size()), Columns);
     for (std::size_t r = 0; r < node->rows.size(); ++r)
-      below[static_cast<Eigen::Index>(r)] = x[node->rows[r]];
-    auto own = x.segment(node->first, node->width);
+      below.row(static_cast<Eigen::Index>(r)) = x.row(node->rows[r]);
+    auto own = x.middleRows(node->first, node->width);
     own.noalias() -= panel.bottomRows(panel.rows() - node->width).transpose() * below;
-    panel.topRows(node->width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    panel.topRows(node->width).template triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
-  Eigen::VectorXd result(right.size());
-  for (Eigen::Index i = 0; i < right.size(); ++i) result[i] = x[place_[static_cast<std::size_t>(i)]];
+  Eigen::Matrix<double, Eigen::Dynamic, Columns> result(right.rows(), Columns);
+  for (Eigen::Index i = 0; i < right.rows(); ++i) result.row(i) = x.row(place_[static_cast<std::size_t>(i)]);
   return result;
 }
+
+template Eigen::VectorXd Cholesky::solve_columns<1>(const Eigen::VectorXd&) const;
+template Eigen::MatrixX3d Cholesky::solve_columns<3>(const Eigen::MatrixX3d&) const;
 
 }  // namespace plisse::shell

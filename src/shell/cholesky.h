@@ -21,8 +21,9 @@ class Cholesky {
   void analyse(const Eigen::SparseMatrix<double>& lower);
   // False where the matrix is not positive definite. The result has the same bytes for any number of threads.
   bool factorise(const Eigen::SparseMatrix<double>& lower);
-  // With the last factorised matrix.
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  // With the last factorised matrix; of one right side, or of three at once.
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return solve_columns<1>(right); }
+  Eigen::MatrixX3d solve_three(const Eigen::MatrixX3d& right) const { return solve_columns<3>(right); }
 
   std::size_t nonzeros() const { return panels_.size(); }
 
@@ -39,6 +40,9 @@ class Cholesky {
     std::size_t height() const { return static_cast<std::size_t>(width) + rows.size(); }
   };
   bool eliminate(std::uint32_t node, const double* values, std::vector<Eigen::MatrixXd>& updates);
+  template <int Columns>
+  Eigen::Matrix<double, Eigen::Dynamic, Columns> solve_columns(
+      const Eigen::Matrix<double, Eigen::Dynamic, Columns>& right) const;
 
   std::vector<std::int32_t> place_;      // of a column in the order of elimination (a postorder)
   std::vector<Supernode> nodes_;         // children before parents

@@ -1,19 +1,16 @@
 #include "shell/follow.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "shell/bending_quadratic.h"
-#include "shell/cholesky.h"
-#include "shell/energy_terms.h"
-#include "shell/potential.h"
+#include "shell/stretching.h"
 
 namespace plisse::shell {
 namespace {
@@ -23,35 +20,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Triplet = Eigen::Triplet<double>;
-
-// ½ xᵀ(F + cM)x − xᵀ(T + cMX), less what does not depend on x.
-class FollowTerm : public ShellTerm {
- public:
-  FollowTerm(const Eigen::SparseMatrix<double>& form, const VectorXd& tether) : form_(form), tether_(tether) {
-    for (Index v = 0; v < tether.size(); ++v) form_.coeffRef(v, v) += tether[v];
-    sizes_ = form_.cwiseAbs();
-  }
-  // X, and T: they may change from solve to solve, the Hessian does not.
-  void aim(const Positions& pose, const Positions& target) { pull_ = target + pose * tether_.asDiagonal(); }
-
-  std::string_view name() const override { return "follow"; }
-  void add(const Positions& x, EnergySum& energy, ForceSum* forces) const override {
-    const Positions force = x * form_;
-    energy.energy += 0.5 * x.cwiseProduct(force).sum() - x.cwiseProduct(pull_).sum();
-    // Almost all of the summands cancel, but their rounding errors do not.
-    energy.summands += 0.5 * x.cwiseAbs().cwiseProduct(x.cwiseAbs() * sizes_).sum() +
-                       x.cwiseAbs().cwiseProduct(pull_.cwiseAbs()).sum();
-    if (!forces) return;
-    forces->force += force - pull_;
-    forces->size += force.cwiseAbs() + pull_.cwiseAbs();
-  }
-  const Eigen::SparseMatrix<double>* constant_hessian() const override { return &form_; }
-
- private:
-  Eigen::SparseMatrix<double> form_, sizes_;  // and its absolute values
-  VectorXd tether_;
-  Positions pull_;
-};
 
 // The two boundary edges at each vertex of a boundary curve: its neighbours there, and how long the edges are
 // at rest. Vertices at which more boundaries meet, or one ends, are left out.
@@ -84,6 +52,24 @@ std::vector<OnCurve> boundary_curves(const Topology& topology, const std::vector
   return result;
 }
 
+// The stiffness of an isotropic membrane at rest that resists all directions alike: Yh/(1 − ν²) ∫ ∇u·∇u.
+Eigen::SparseMatrix<double> membrane(const Topology& topology, const std::vector<RestFace>& rest,
+                                     const Material& material) {
+  const double stiffness = material.young * material.thickness / (1 - material.poisson * material.poisson);
+  std::vector<Triplet> entries;
+  for (std::size_t f = 0; f < rest.size(); ++f) {
+    const Matrix3d form = stiffness * rest[f].area * rest[f].gradients.transpose() * rest[f].gradients;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t l = 0; l < 3; ++l)
+        entries.emplace_back(static_cast<int>(topology.faces[f][k]), static_cast<int>(topology.faces[f][l]),
+                             form(static_cast<Index>(k), static_cast<Index>(l)));
+  }
+  const auto count = static_cast<Index>(topology.vertex_count);
+  Eigen::SparseMatrix<double> result(count, count);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 // The rotation nearest to a matrix.
 Matrix3d rotation_of(const Matrix3d& matrix) {
   const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -94,12 +80,11 @@ Matrix3d rotation_of(const Matrix3d& matrix) {
 }  // namespace
 
 Follower::Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
-                   const FollowSettings& settings, std::vector<bool> held)
+                   const FollowSettings& settings, const std::vector<bool>& held)
     : topology_(std::move(topology)),
       rest_(std::move(rest)),
       settings_(settings),
-      held_(std::move(held)),
-      idle_(std::make_unique<Idle>()) {
+      free_(topology_.vertex_count, true) {
   const auto count = static_cast<Index>(topology_.vertex_count);
   if (rest_.size() != topology_.faces.size() || (rest_positions.size() > 0 && rest_positions.cols() != count))
     throw Error(ExitCode::bad_input,
@@ -108,6 +93,8 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
   material_.young = material_.thickness = 1;
   material_.poisson = settings.poisson;
   areas_ = vertex_areas(topology_, rest_);
+  for (std::uint32_t v = 0; v < topology_.vertex_count; ++v)
+    free_[v] = areas_[v] > 0 && !(v < held.size() && held[v]);
   if (!(settings.wavelength > 0)) return;
   const double reach = settings.reach * settings.wavelength,
                cut = std::pow(settings.wavelength / (2 * std::numbers::pi), 4);
@@ -156,6 +143,10 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
   curvature_.setFromTriplets(entries.begin(), entries.end());
   form_ = curvature_.transpose() * (weights_.asDiagonal() * curvature_).eval();
   form_.makeCompressed();
+  const Eigen::SparseMatrix<double> smoothing =
+      form_ + Eigen::SparseMatrix<double>((tether_ * areas_).asDiagonal());
+  smoothing_.emplace(smoothing, free_);
+  metric_.emplace(smoothing + membrane(topology_, rest_, material_), free_);
 
   if (rest_positions.size() == 0) return;
   rest_curvature_ = rest_positions * curvature_.transpose();
@@ -199,138 +190,80 @@ Positions Follower::turned_curvature(const Positions& pose) const {
   return turned * curvature_;
 }
 
-// What a solve needs and the next can have again: everything but the pose.
-struct Follower::Workspace {
-  Shell shell;
-  Conditions conditions;
-  Loads loads;
-  FollowTerm* term = nullptr;  // of the potential
-  std::unique_ptr<Potential> potential;
-  Cholesky cholesky;
-  bool analysed = false;
-
-  Workspace(const Follower& follower, const VectorXd& tether)
-      : shell{follower.topology_,
-              follower.rest_,
-              follower.material_,
-              Stretching::tension_field,
-              Bending::off,
-              0,
-              follower.settings_.tension_limit,
-              {}},
-        conditions(follower.topology_.vertex_count) {
-    for (std::uint32_t v = 0; v < follower.held_.size(); ++v)
-      if (follower.held_[v]) conditions.hold(v, Vector3d::Zero());  // where each pose has it, not there
-    Potential::Terms terms;
-    terms.push_back(stretching_term({shell, conditions, loads, Vector3d::Zero(), follower.areas_}));
-    auto own = std::make_unique<FollowTerm>(follower.form_, tether);
-    term = own.get();
-    terms.push_back(std::move(own));
-    potential = std::make_unique<Potential>(shell, conditions, std::move(terms));
+EnergyValue Follower::value(const Positions& pose, const Positions& moved, const Positions& pull) const {
+  const StretchingLaw law{material_, Stretching::tension_field, 0, settings_.tension_limit};
+  const Positions x = pose + moved, bent = moved * form_;
+  std::vector<double> energies(rest_.size());
+  std::vector<Vector9> gradients(rest_.size());
+  tbb::parallel_for(std::size_t{0}, rest_.size(), [&](std::size_t f) {
+    energies[f] = stretching(law, rest_[f], corners_of(topology_.faces[f], x), &gradients[f]);
+  });
+  EnergyValue result;
+  result.gradient = bent + pull;
+  const auto count = [&](double summand) {
+    result.energy += summand;
+    result.summands += std::abs(summand);
+  };
+  for (std::size_t f = 0; f < rest_.size(); ++f) {
+    count(energies[f]);
+    for (std::size_t k = 0; k < 3; ++k)
+      result.gradient.col(topology_.faces[f][k]) += gradients[f].segment<3>(static_cast<Index>(3 * k));
   }
-};
-
-struct Follower::Idle {
-  std::mutex mutex;
-  std::vector<std::unique_ptr<Workspace>> workspaces;
-};
-
-std::unique_ptr<Follower::Workspace> Follower::borrow() const {
-  {
-    const std::lock_guard lock(idle_->mutex);
-    if (!idle_->workspaces.empty()) {
-      auto own = std::move(idle_->workspaces.back());
-      idle_->workspaces.pop_back();
-      return own;
-    }
+  for (Index v = 0; v < x.cols(); ++v) {
+    const Vector3d u = moved.col(v);
+    count(0.5 * u.dot(bent.col(v)));
+    count(u.dot(pull.col(v)));
+    count(0.5 * tether_ * areas_[v] * u.squaredNorm());
+    if (free_[static_cast<std::size_t>(v)])
+      result.gradient.col(v) += tether_ * areas_[v] * u;
+    else
+      result.gradient.col(v).setZero();
   }
-  VectorXd tether = tether_ * areas_;
-  for (Index v = 0; v < tether.size(); ++v)
-    if (!(tether[v] > 0)) tether[v] = 1;  // a vertex without faces stays where it is
-  return std::make_unique<Workspace>(*this, tether);
+  return result;
 }
 
-void Follower::give_back(std::unique_ptr<Workspace> workspace) const {
-  const std::lock_guard lock(idle_->mutex);
-  idle_->workspaces.push_back(std::move(workspace));
-}
-
-Follower::Follower(Follower&&) noexcept = default;
-Follower::~Follower() = default;
-
-Followed Follower::follow(const Positions& pose) const {
+Followed Follower::follow(const Positions& pose, const Positions* start) const {
   if (pose.cols() != areas_.size() || !pose.allFinite())
     throw Error(ExitCode::bad_input,
                 pose.allFinite()
                     ? fmt::format("a pose of {} vertices for a shell of {}", pose.cols(), areas_.size())
                     : std::string("a pose with positions that are not finite"));
   Followed result;
+  result.base = pose;
   if (!(settings_.wavelength > 0)) {
-    result.base = pose;
     result.converged = true;
     return result;
   }
   const Vector3d origin = pose.rowwise().mean();  // near the shell rounding is least
-  const Positions given = pose.colwise() - origin;
-  std::unique_ptr<Workspace> own = borrow();
-  Potential& potential = *own->potential;
-  Positions x = given, target = turned_curvature(given);
-  for (int pass = 0; pass < settings_.passes; ++pass) {
-    if (pass > 0) target = x * form_;
-    own->term->aim(given, target);
-    result.converged = false;
-    VectorXd gradient;
-    double energy = potential.value(x, &gradient).energy;
-    for (int step = 0; step < settings_.max_iterations && !interrupted(); ++step) {
-      const Eigen::SparseMatrix<double>& hessian = potential.hessian(x, Curvature::positive);
-      if (!own->analysed) own->cholesky.analyse(hessian);
-      own->analysed = true;
-      if (!own->cholesky.factorise(hessian)) break;
-      const VectorXd direction = own->cholesky.solve(-gradient);
-      // E is convex and its tether strong: a Newton step that is nothing is the end.
-      if (direction.cwiseAbs().maxCoeff() <= settings_.tolerance * settings_.wavelength) {
-        result.converged = true;
-        break;
-      }
-      const double slope = gradient.dot(direction);
-      double length = 1;
-      Positions next;
-      VectorXd there;
-      bool down = false;
-      for (int halving = 0; halving < 30 && !down; ++halving, length /= 2) {
-        next = x;
-        potential.advance(next, direction, length);
-        const Potential::Value value = potential.value(next, &there);
-        // Where the energy's rounding hides the fall, the slope tells.
-        const double rounding = 1e-14 * value.summands;
-        down = value.energy <= energy + 1e-4 * length * slope + rounding;
-        if (down) energy = value.energy;
-      }
-      if (!down) {
-        // No step lowers the energy's digits any more: good where hardly one was left.
-        constexpr double left = 1e-5;  // of Λ: a hundredth of what an eye sees in a wave
-        result.converged = direction.cwiseAbs().maxCoeff() <= left * settings_.wavelength;
-        break;
-      }
-      x = std::move(next);
-      gradient = std::move(there);
-      ++result.iterations;
-    }
-    if (!result.converged) break;
+  const Positions given = pose.colwise() - origin, bent = given * form_;
+  Positions pull = bent - turned_curvature(given), moved = smoothing_->solve(-pull);
+  for (int pass = 1; pass < settings_.passes; ++pass) {
+    pull = -(moved * form_);
+    moved = smoothing_->solve(-pull);
   }
-  give_back(std::move(own));
-  result.base = x.colwise() + origin;
-  const Eigen::RowVectorXd moved = (result.base - pose).colwise().squaredNorm();
-  double sum = 0, most = 0;
+  if (start)
+    for (Index v = 0; v < pose.cols(); ++v)
+      if (free_[static_cast<std::size_t>(v)]) moved.col(v) = start->col(v) - pose.col(v);
+  MinimumSettings search;
+  search.max_iterations = settings_.max_iterations;
+  search.tolerance = settings_.tolerance * settings_.wavelength;
+  search.good_enough = 1e-5 * settings_.wavelength;  // a hundredth of what an eye sees in a wave
+  const Minimum minimum = find_minimum(
+      moved, [&](const Positions& u) { return value(given, u, pull); },
+      [&](const Positions& gradient) { return metric_->solve(gradient); }, search);
+  result.converged = minimum.converged;
+  result.iterations = minimum.iterations;
+  result.base += minimum.x;
+  double sum = 0;
   Index used = 0;
-  for (Index v = 0; v < moved.size(); ++v) {
+  for (Index v = 0; v < pose.cols(); ++v) {
     if (!(areas_[v] > 0)) continue;
-    sum += moved[v];
-    most = std::max(most, moved[v]);
+    const double squared = minimum.x.col(v).squaredNorm();
+    sum += squared;
+    result.moved_most = std::max(result.moved_most, std::sqrt(squared));
     ++used;
   }
   result.moved_rms = used > 0 ? std::sqrt(sum / static_cast<double>(used)) : 0;
-  result.moved_most = std::sqrt(most);
   return result;
 }
 

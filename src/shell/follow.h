@@ -10,15 +10,23 @@
 // wins over the tether on what is shorter than ℓ. Free boundaries have the same for themselves as curves, or
 // hems would keep the simulation's sawtooth. E is convex, so that a base depends on its own frame alone; Y
 // and h have no part in it, since they multiply all of E.
+//
+// A constant matrix serves for all frames: with t = Λk/2π a change of wave number k has the stiffness 1 + t⁴
+// in bending and tether, and of the membrane at most (ℓk)²/(1 − ν²) = 5.6 t², which tension field theory has
+// in part of the directions only. Of tether, bending and the whole membrane the rest is at least 2/7.6,
+// whatever the mesh and Λ: limited-memory BFGS in that metric (Liu, Bouaziz and Kavan 2017) takes some twenty
+// steps, each of one evaluation and one back-substitution.
 #pragma once
 
 #include <Eigen/SparseCore>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
+#include "shell/limited_memory.h"
 #include "shell/material.h"
 #include "shell/rest_shape.h"
+#include "shell/vertex_solver.h"
 
 namespace plisse::shell {
 
@@ -27,17 +35,18 @@ struct FollowSettings {
   double reach = 0.36;    // ℓ over Λ
   double poisson = 0.3;
   double tension_limit = 0.05;  // of StretchingLaw; 0: none
-  // Curvature that the first solution has is the second's target: a tube of n edges, sewn from flat panels,
-  // keeps g = 1/(1 + (8/n)⁴) of its radius in one at Λ = 8 edges, 1 − (1 − g)² of it in two.
+  // Of the second pass the target is the curvature of a first one, the pose smoothed by bending and tether
+  // alone: a tube of n edges, sewn from flat panels, keeps g = 1/(1 + (8/n)⁴) of its radius in one at Λ = 8
+  // edges, 1 − (1 − g)² of it in two.
   int passes = 2;
-  int max_iterations = 200;
-  double tolerance = 1e-8;  // converged where no vertex moves by more than this share of Λ
+  int max_iterations = 400;
+  double tolerance = 1e-9;  // converged where no vertex moves by more than this share of Λ
 };
 
 struct Followed {
   Positions base;                        // m, 3×V
   double moved_rms = 0, moved_most = 0;  // m, from the pose, over vertices with faces
-  int iterations = 0;                    // Newton steps of all passes
+  int iterations = 0;
   bool converged = false;
 };
 
@@ -47,30 +56,27 @@ class Follower {
   // panels. Throws Error(bad_input) where counts do not agree.
   // held: one flag a vertex that stays where the pose has it; may be empty.
   Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
-           const FollowSettings& settings, std::vector<bool> held = {});
-
-  Follower(Follower&&) noexcept;
-  ~Follower();
+           const FollowSettings& settings, const std::vector<bool>& held = {});
 
   // Throws Error(bad_input) where the pose has another number of vertices or is not finite. May be called
-  // from several threads.
-  Followed follow(const Positions& pose) const;
+  // from several threads. `start`: where the search begins, 3×V, on which its end does not depend; nothing:
+  // the smoothed pose.
+  Followed follow(const Positions& pose, const Positions* start = nullptr) const;
 
  private:
-  struct Workspace;  // what a solve works with, one for each that runs at the same time
-  struct Idle;
-  std::unique_ptr<Workspace> borrow() const;
-  void give_back(std::unique_ptr<Workspace> workspace) const;
   // What the rest shape's own curvature, turned with the pose, is for the bending: N a vertex, 3×V.
   Positions turned_curvature(const Positions& pose) const;
+  // E less what does not depend on x = X + u, J, and its gradient by u; `pull`: the gradient of bending at u
+  // = 0, N.
+  EnergyValue value(const Positions& pose, const Positions& moved, const Positions& pull) const;
 
   Topology topology_;
   std::vector<RestFace> rest_;
   FollowSettings settings_;
-  std::vector<bool> held_;
-  Material material_;      // of unit thickness and stiffness, with Poisson's ratio
-  double tether_ = 0;      // c, N/m³
-  Eigen::VectorXd areas_;  // m_i, m²
+  std::vector<bool> free_;  // of each vertex: it has faces and is not held
+  Material material_;       // of unit thickness and stiffness, with Poisson's ratio
+  double tether_ = 0;       // c, N/m³
+  Eigen::VectorXd areas_;   // m_i, m²
   // Curvature operators, a row each: of the cell of a vertex (L), and of the boundary curve at one; the
   // weights of their squares, N/m; the vertices that they are of; their values for the rest shape.
   Eigen::SparseMatrix<double> curvature_;
@@ -80,7 +86,7 @@ class Follower {
   std::vector<Eigen::Matrix3d>
       frames_;                        // of each rest face in space: its axes u, v and its normal; empty: flat
   Eigen::SparseMatrix<double> form_;  // their sum of squares, V×V, N/m
-  std::unique_ptr<Idle> idle_;
+  std::optional<VertexSolver> smoothing_, metric_;  // bending and tether; and the membrane
 };
 
 }  // namespace plisse::shell

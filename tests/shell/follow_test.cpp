@@ -176,6 +176,47 @@ TEST(Follow, RigsThatStretchHardlyMove) {
   EXPECT_LT(near.moved_rms, 0.2 * far.moved_rms);  // the limit is an eighth or less of the strain .96
 }
 
+// E is convex: the same base from the pose, from far off and from a crumpled heap.
+TEST(Follow, OneBaseWhateverTheStart) {
+  const Sheet sheet(1, 1, 20, 20);
+  const Positions pose = sheet.places([](double u, double v) {
+    return Vector3d(0.8 * u + 0.05 * std::sin(9 * v), v, 0.05 * std::sin(20 * u) * std::cos(7 * v));
+  });
+  std::vector<bool> held(sheet.topology.vertex_count, false);
+  held[sheet.id(0, 0)] = held[sheet.id(20, 20)] = true;
+  FollowSettings own = settings(0.3, 2);
+  own.tolerance = FollowSettings().tolerance;
+  const Follower follower(sheet.topology, sheet.rest, {}, own, held);
+  const Followed smoothed = follower.follow(pose);
+  const Positions away = sheet.places([](double u, double v) { return Vector3d(3 * v, 2 - u, 1); }),
+                  heap = sheet.places([](double u, double v) {
+                    return Vector3d(std::sin(400 * u + 90 * v), std::sin(300 * v), std::cos(777 * u * v));
+                  });
+  ASSERT_TRUE(smoothed.converged);
+  EXPECT_EQ(smoothed.base.col(sheet.id(20, 20)), pose.col(sheet.id(20, 20)));  // held
+  EXPECT_GT(smoothed.moved_most, 0.01);
+  for (const Positions* start : {&pose, &away, &heap}) {
+    const Followed other = follower.follow(pose, start);
+    ASSERT_TRUE(other.converged);
+    EXPECT_LT((other.base - smoothed.base).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+// The membrane is the stiffer, the finer the mesh: steps hardly depend on it, since the metric knows it.
+TEST(Follow, StepsDoNotGrowWithTheMesh) {
+  int few = 0;
+  for (const int cells : {12, 24, 48}) {
+    const Sheet sheet(1, 1, cells, cells);
+    const Positions pose = sheet.places([](double u, double v) {
+      return Vector3d(0.85 * u + 0.1 * v * v, v, 0.05 * std::sin(12 * u) * std::cos(5 * v));
+    });
+    const Followed followed = Follower(sheet.topology, sheet.rest, {}, settings(0.3, 2)).follow(pose);
+    ASSERT_TRUE(followed.converged);
+    if (cells == 12) few = followed.iterations;
+    EXPECT_LE(followed.iterations, few + 15);
+  }
+}
+
 TEST(Follow, SaysWhatDoesNotFit) {
   const Sheet sheet(1, 1, 4, 4);
   const Follower follower(sheet.topology, sheet.rest, {}, settings(0.3));
