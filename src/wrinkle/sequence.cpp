@@ -31,6 +31,10 @@ constexpr double same = 1e-4;
 // The tether's stiffness: of the energy that waves take up. The first is taken with which the energy is low
 // enough: the more, the smoother in time.
 constexpr std::array<double, 6> tethers{0.03, 0.0075, 0.002, 0.0005, 0.0001, 0};
+// The first to try beside a frame that needed this one.
+std::size_t stiffer(std::size_t tether) {
+  return tether > 0 ? tether - 1 : 0;
+}
 
 // Rule of energy: of a key and the frames beside it not more than so many times that of the frame solved
 // alone, above the relaxed one, and this share of the clip's largest (density of waves between .8 and 1.25).
@@ -221,8 +225,11 @@ void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
 }
 
 FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const CoarseField& near,
-                                            const CoarseField& begin, double stiffness, double alone) const {
+                                            const CoarseField& begin, std::size_t tether_number,
+                                            double alone) const {
+  const double stiffness = tethers[tether_number];
   Key key;
+  key.tether = tether_number;
   const Problem problem(clip_.topology, frame.forms, clip_.model, frame.wrinkle_free, clip_.clamped);
   key.energy = problem.relaxed_energy();
   key.reason = "stationary";
@@ -236,8 +243,10 @@ FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const Coarse
   SolveOptions options = options_.field.solve;
   options.fixed_periods = true;
   options.trust = 1e-3;
-  options.kkt = std::max(options.kkt, 1e-4);
-  options.energy = std::max(options.energy, 1e-6);
+  options.kkt = std::max(options.kkt, 1e-3);
+  options.energy = std::max(options.energy, 1e-5);
+  // Where the next softer tether is needed in any case there is no use in the end of this search.
+  if (stiffness > 0) options.target = problem.relaxed_energy() + limit(alone, most_excess);
   start.amplitude = seeded(problem, start);
   lower(problem, start);
   // What is little beside the clip's energy need not be exact for itself.
@@ -266,12 +275,12 @@ double FieldSequence::limit(double alone, double times) const {
   return times * alone + most_share * most_;
 }
 
-FieldSequence::Key FieldSequence::nearest(const ClipFrame& frame, const CoarseField& near,
-                                          double alone) const {
+FieldSequence::Key FieldSequence::nearest(const ClipFrame& frame, const CoarseField& near, double alone,
+                                          std::size_t stiffest) const {
   Key key;
   int iterations = 0;
-  for (const double stiffness : tethers) {
-    key = minimised(frame, near, iterations == 0 ? near : key.field, stiffness, alone);
+  for (std::size_t tether = stiffest; tether < tethers.size(); ++tether) {
+    key = minimised(frame, near, tether == stiffest ? near : key.field, tether, alone);
     iterations += key.iterations;
     if (key.excess <= limit(alone, most_excess)) break;
   }
@@ -287,14 +296,15 @@ FieldSequence::Key FieldSequence::next_key(int key, int from, const Key& before)
     same_field.iterations = 0;
     return same_field;
   }
-  return nearest(clip_.frame(frame), before.field, alone_[static_cast<std::size_t>(key)].excess);
+  return nearest(clip_.frame(frame), before.field, alone_[static_cast<std::size_t>(key)].excess,
+                 stiffer(before.tether));
 }
 
 FieldSequence::Span FieldSequence::span_from(int anchor, const std::vector<int>& owner) const {
   const auto frame_of = [&](int k) { return key_frames_[static_cast<std::size_t>(k)]; };
   // Its topology is that of all others: solved to the end.
   const Alone alone = solved_alone(frame_of(anchor), options_.field);
-  Key first = nearest(clip_.frame(frame_of(anchor)), alone.field, alone.excess);
+  Key first = nearest(clip_.frame(frame_of(anchor)), alone.field, alone.excess, 0);
   first.iterations += alone.iterations;
   // Keys from the anchor on, it left out; and how many of them are covered.
   const auto walk = [&](int step, std::vector<Key>& keys, int& covered) {
@@ -449,7 +459,8 @@ SequenceFrame FieldSequence::of_span(int number, int n) const {
     return result;
   }
   const auto alone_at = [&](int key) { return alone_[static_cast<std::size_t>(key)].excess; };
-  Key solved = nearest(forms, between, (1 - share) * alone_at(near) + share * alone_at(far));
+  Key solved = nearest(forms, between, (1 - share) * alone_at(near) + share * alone_at(far),
+                       stiffer(std::min(key_at(near).tether, key_at(far).tether)));
   result.field = std::move(solved.field);
   result.waves = solved.waves;
   result.energy = solved.energy;

@@ -95,6 +95,7 @@ class FieldSequence {
     CoarseField field;
     double waves = 0, energy = 0, excess = 0;
     int iterations = 0;
+    std::size_t tether = 0;  // its number: the softer, the higher
     bool converged = true, still = false;
     std::string reason;
   };
@@ -119,10 +120,10 @@ class FieldSequence {
   Span span_from(int anchor, const std::vector<int>& owner) const;
   // The least energy with the topology of `near`, tethered to it; `alone`: about what the frame has alone, J
   // above the relaxed energy.
-  Key minimised(const ClipFrame& frame, const CoarseField& near, const CoarseField& begin, double stiffness,
+  Key minimised(const ClipFrame& frame, const CoarseField& near, const CoarseField& begin, std::size_t tether,
                 double alone) const;
-  // With the stiffest tether that keeps the energy within its limit.
-  Key nearest(const ClipFrame& frame, const CoarseField& near, double alone) const;
+  // With the stiffest tether, from number `stiffest` on, that keeps the energy within its limit.
+  Key nearest(const ClipFrame& frame, const CoarseField& near, double alone, std::size_t stiffest) const;
   Key next_key(int key, int from, const Key& before) const;
   double limit(double alone, double times) const;  // J, of the energy above the relaxed one
   bool still(int a, int b) const;                  // whether the base is the same in all frames from a to b
