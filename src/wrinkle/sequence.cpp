@@ -224,12 +224,13 @@ void FieldSequence::solve_alone(const std::function<void(int, int)>& progress) {
   for (const Alone& alone : alone_) most_ = std::max(most_, alone.excess);
 }
 
-FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const CoarseField& near,
-                                            const CoarseField& begin, std::size_t tether_number,
-                                            double alone) const {
-  const double stiffness = tethers[tether_number];
+double FieldSequence::limit(double alone, double times) const {
+  return times * alone + most_share * most_;
+}
+
+FieldSequence::Key FieldSequence::nearest(const ClipFrame& frame, const CoarseField& near, double alone,
+                                          std::size_t stiffest) const {
   Key key;
-  key.tether = tether_number;
   const Problem problem(clip_.topology, frame.forms, clip_.model, frame.wrinkle_free, clip_.clamped);
   key.energy = problem.relaxed_energy();
   key.reason = "stationary";
@@ -239,28 +240,35 @@ FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const Coarse
     key.energy += key.excess;
     return key;
   }
-  Waves start = carried(problem, begin);
   SolveOptions options = options_.field.solve;
   options.fixed_periods = true;
   options.trust = 1e-3;
   options.kkt = std::max(options.kkt, 1e-3);
   options.energy = std::max(options.energy, 1e-5);
-  // Where the next softer tether is needed in any case there is no use in the end of this search.
-  if (stiffness > 0) options.target = problem.relaxed_energy() + limit(alone, most_excess);
-  start.amplitude = seeded(problem, start);
-  lower(problem, start);
   // What is little beside the clip's energy need not be exact for itself.
   if (alone < most_share * most_) {
     const double little = alone > 0 ? std::min(most_share * most_ / alone, 1e3) : 1e3;
     options.kkt *= little;
     options.energy *= little;
   }
-  const Eigen::VectorXd to = problem.pack(carried(problem, near));
-  const Tether tether{to, stiffness * problem.taken_up(to), nothing * most_};
-  const Solution solution = wrinkle::solve(problem, start, options, tether);
+  Solution solution;
+  solution.waves = carried(problem, near);
+  const Eigen::VectorXd to = problem.pack(solution.waves), stiffness = problem.taken_up(to);
+  const double most = limit(alone, most_excess);
+  for (key.tether = stiffest; key.tether < tethers.size(); ++key.tether) {
+    const Tether tether{to, tethers[key.tether] * stiffness, nothing * most_};
+    // Where the next softer tether is needed in any case there is no use in the end of this search.
+    if (tethers[key.tether] > 0) options.target = problem.relaxed_energy() + most;
+    Waves start = std::move(solution.waves);
+    start.amplitude = seeded(problem, start);
+    lower(problem, start);
+    solution = wrinkle::solve(problem, start, options, tether);
+    key.iterations += solution.iterations;
+    key.excess = solution.energy - problem.relaxed_energy();
+    if (key.excess <= most || tethers[key.tether] == 0) break;
+    options.target = std::numeric_limits<double>::infinity();
+  }
   key.energy = solution.energy;
-  key.excess = solution.energy - problem.relaxed_energy();
-  key.iterations = solution.iterations;
   key.converged = solution.converged;
   key.reason = solution.reason;
   key.field = {solution.waves.amplitude, corner_phases(problem, solution.waves)};
@@ -268,23 +276,6 @@ FieldSequence::Key FieldSequence::minimised(const ClipFrame& frame, const Coarse
                                       solution.waves.amplitude, problem.one_form(solution.waves));
   key.waves = count.round ? std::round(count.waves) : count.waves;  // whole up to rounding
   align(clip_.topology, frame.forms, near, key.field);
-  return key;
-}
-
-double FieldSequence::limit(double alone, double times) const {
-  return times * alone + most_share * most_;
-}
-
-FieldSequence::Key FieldSequence::nearest(const ClipFrame& frame, const CoarseField& near, double alone,
-                                          std::size_t stiffest) const {
-  Key key;
-  int iterations = 0;
-  for (std::size_t tether = stiffest; tether < tethers.size(); ++tether) {
-    key = minimised(frame, near, tether == stiffest ? near : key.field, tether, alone);
-    iterations += key.iterations;
-    if (key.excess <= limit(alone, most_excess)) break;
-  }
-  key.iterations = iterations;
   return key;
 }
 

@@ -118,11 +118,8 @@ class FieldSequence {
   void find_spans();
   void find_changes();
   Span span_from(int anchor, const std::vector<int>& owner) const;
-  // The least energy with the topology of `near`, tethered to it; `alone`: about what the frame has alone, J
-  // above the relaxed energy.
-  Key minimised(const ClipFrame& frame, const CoarseField& near, const CoarseField& begin, std::size_t tether,
-                double alone) const;
-  // With the stiffest tether, from number `stiffest` on, that keeps the energy within its limit.
+  // The least energy with the topology of `near`, by the stiffest tether to it, from number `stiffest` on,
+  // that keeps it within its limit; `alone`: about what the frame has alone, J above the relaxed energy.
   Key nearest(const ClipFrame& frame, const CoarseField& near, double alone, std::size_t stiffest) const;
   Key next_key(int key, int from, const Key& before) const;
   double limit(double alone, double times) const;  // J, of the energy above the relaxed one
