@@ -97,10 +97,10 @@ void main() {
         slopes[i] = (its.y - its.x) * gradient_beta + (its.z - its.x) * gradient_gamma;
         largest = max(largest, length(slopes[i]));
     }
-    float A = dot(at.w, field_amplitude), theta = dot(at.w, field_turns);
+    float A = dot(b, field_amplitude), theta = dot(at.w, field_turns);
     if (A > 0.0) {
         vec3 slope = at.w.x * slopes[0] + at.w.y * slopes[1] + at.w.z * slopes[2] + blend_gradient(at, b, field_turns);
-        vec3 swell = blend_gradient(at, b, field_amplitude);
+        vec3 swell = linear_gradient(field_amplitude);
         float angle = 2.0 * pi * (theta - floor(theta + 0.5)), c = cos(angle), s = sin(angle);
         height += A * c;
         amplitude += A;

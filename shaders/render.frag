@@ -42,16 +42,16 @@ struct Wrinkle {
 
 #ifdef FIELD
 // The carried field: amplitude and phase are blended before the cosine is taken, so that any number of waves fits into a
-// triangle.
+// triangle. The amplitude is linear: blended weights, flat at every corner, would make steps of it.
 void add_field(inout Wrinkle result, Weights at, vec3 b) {
     vec2 turns_per_pixel = vec2(dot(at.w, dFdx(field_tau)), dot(at.w, dFdy(field_tau)));
     float fade = 1.0 - smoothstep(0.25, 0.5, length(turns_per_pixel));
-    float amplitude = dot(at.w, field_amplitude), turns = dot(at.w, field_tau);
+    float amplitude = dot(b, field_amplitude), turns = dot(at.w, field_tau);
     vec3 slope = at.w.x * field_slope_a + at.w.y * field_slope_b + at.w.z * field_slope_c +
                  blend_gradient(at, b, field_tau);
     float phase = 2.0 * pi * (turns - floor(turns + 0.5)), steep = 2.0 * pi * amplitude;
     result.height += fade * amplitude * cos(phase);
-    result.gradient += fade * (cos(phase) * blend_gradient(at, b, field_amplitude) - steep * sin(phase) * slope);
+    result.gradient += fade * (cos(phase) * linear_gradient(field_amplitude) - steep * sin(phase) * slope);
     result.amplitude += fade * amplitude;
     result.lost_slope += 0.5 * steep * steep * dot(slope, slope) * (1.0 - fade * fade);
 }

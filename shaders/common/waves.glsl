@@ -68,6 +68,11 @@ Weights weights_at(vec3 b) {
     return at;
 }
 
+// Of values that are linear in the triangle.
+vec3 linear_gradient(vec3 corners) {
+    return (corners.y - corners.x) * gradient_beta + (corners.z - corners.x) * gradient_gamma;
+}
+
 // Σ H_j ∇w_j.
 vec3 blend_gradient(Weights at, vec3 b, vec3 H) {
 #ifdef LINEAR_BLEND

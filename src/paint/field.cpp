@@ -173,8 +173,9 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
 }
 
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
-                                          const SurfaceField& field, const std::vector<double>& mask) {
-  const std::vector<glm::dvec3> gradients = phase_gradients(surface, rest, field);
+                                          const SurfaceField& field, const std::vector<double>& mask,
+                                          std::vector<glm::dvec3> gradients) {
+  if (gradients.empty()) gradients = phase_gradients(surface, rest, field);
   std::vector<bool> smooth;
   const auto all = differences(surface, field);
   for (std::size_t v = 0; v < all.size(); ++v) {
@@ -206,7 +207,8 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
 }
 
 std::vector<FieldTriangle> field_of_cloth(const Surface& surface, const SolvedClip& clip, std::size_t index,
-                                          const std::vector<double>& mask) {
+                                          const std::vector<double>& mask,
+                                          const std::vector<glm::dvec3>& gradients) {
   const SolvedClip::Frame& frame = clip.frames.at(index);
   std::vector<FieldTriangle> result(surface.triangle_count());
   if (frame.amplitude.empty()) return result;
@@ -220,9 +222,10 @@ std::vector<FieldTriangle> field_of_cloth(const Surface& surface, const SolvedCl
     strength.push_back(mask[clip.welded[v]]);
   }
   for (const auto& face : clip.faces) cloth.triangles.insert(cloth.triangles.end(), face.begin(), face.end());
-  build_adjacency(cloth);
+  if (gradients.empty()) build_adjacency(cloth);  // which only finding them needs
   const std::vector<FieldTriangle> own =
-      field_directly(cloth, rest_frames(cloth), {frame.amplitude, frame.phase}, strength);
+      field_directly(cloth, gradients.empty() ? rest_frames(cloth) : RestFrames{},
+                     {frame.amplitude, frame.phase}, strength, gradients);
   for (std::size_t f = 0; f < own.size(); ++f) result[clip.triangle[f]] = own[f];
   return result;
 }

@@ -43,13 +43,17 @@ void field_as_bias(const Surface& surface, const RestFrames& rest, const Surface
 // vertex. Where a vertex's gradient predicts a neighbour's phase with an error above half a turn, or the mean
 // of both with one above a quarter (around a singularity), or where the amplitude is 0, its phase is
 // interpolated linearly between the corners instead. Amplitudes are multiplied by `mask`, one a welded
-// vertex: the scene's strength, 0 for excluded parts.
+// vertex: the scene's strength, 0 for excluded parts. gradients: of the phases, as phase_gradients gives
+// them, where they are known better; empty: those.
 std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFrames& rest,
-                                          const SurfaceField& field, const std::vector<double>& mask);
+                                          const SurfaceField& field, const std::vector<double>& mask,
+                                          std::vector<glm::dvec3> gradients = {});
 
 // The waves of a cloth that was solved for a frame, carried unchanged: one a triangle of the surface, none
-// where the cloth is not. mask: one a welded vertex of the surface.
+// where the cloth is not. mask: one a welded vertex of the surface. gradients: of the cloth's vertices, as
+// above.
 std::vector<FieldTriangle> field_of_cloth(const Surface& surface, const SolvedClip& clip, std::size_t index,
-                                          const std::vector<double>& mask);
+                                          const std::vector<double>& mask,
+                                          const std::vector<glm::dvec3>& gradients = {});
 
 }  // namespace plisse::paint

@@ -182,7 +182,7 @@ void check_request(const BakeRequest& request) {
 BakeReport bake_maps(const BakeRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();
   check_request(request);
-  pipeline::LoadedScene scene(request.scene, request.memory);
+  pipeline::LoadedScene scene(request.scene, request.memory, 0);  // the map is for the mesh as it is
   const auto frames =
       config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   const Baker baker(scene, request.texture_size);

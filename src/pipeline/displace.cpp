@@ -41,19 +41,22 @@ class EdgeWaves {
         add(v, other, length / std::min(length_of_wave(v), length_of_wave(other)));
       }
     }
+    std::vector<std::array<double, 3>> on_sides(surface.triangle_count(), {0, 0, 0});  // in any frame
     scene.visit_fields([&](const std::vector<FieldTriangle>& field) {
       for (std::size_t t = 0; t < field.size(); ++t) {
         if (*std::ranges::max_element(field[t].amplitude) == 0) continue;
-        for (const auto& turns : field[t].turns) {
-          for (std::size_t c = 0; c < 3; ++c) {
-            const auto welded = [&](std::size_t k) {
-              return surface.render_vertices[surface.triangles[3 * t + k % 3]].welded;
-            };
-            add(welded(c), welded(c + 1), std::abs(turns[(c + 1) % 3] - turns[c]));
-          }
-        }
+        for (const auto& turns : field[t].turns)
+          for (std::size_t c = 0; c < 3; ++c)
+            on_sides[t][c] = std::max(on_sides[t][c], std::abs(turns[(c + 1) % 3] - turns[c]));
       }
     });
+    for (std::size_t t = 0; t < on_sides.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto welded = [&](std::size_t k) {
+          return surface.render_vertices[surface.triangles[3 * t + k % 3]].welded;
+        };
+        if (on_sides[t][c] > 0) add(welded(c), welded(c + 1), on_sides[t][c]);
+      }
   }
   double on(std::uint32_t a, std::uint32_t b) const {
     const auto found = most_.find(key(a, b));
@@ -97,7 +100,8 @@ double most_pixels_a_metre(const LoadedScene& scene) {
 }  // namespace
 
 int levels_for(const LoadedScene& scene) {
-  return plisse::levels_for(EdgeWaves(scene).most(), scene.surface().triangle_count(), most_triangles);
+  return scene.smooth_levels() +
+         plisse::levels_for(EdgeWaves(scene).most(), scene.surface().triangle_count(), most_triangles);
 }
 
 Subdivision split_as_needed(const LoadedScene& scene) {

@@ -11,6 +11,7 @@ namespace plisse::pipeline {
 
 // How often edges have to be halved so that a wave on the longest edge has at least eight segments in all
 // frames; less often where there would be more than four million triangles (with a warning). 0 without waves.
+// Those of a smooth surface are among them.
 int levels_for(const LoadedScene& scene);
 
 // The scene's surface with every edge halved as often as its own waves need in all frames, but not below a

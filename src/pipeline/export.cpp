@@ -79,12 +79,14 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
 
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();
-  pipeline::LoadedScene scene(request.scene, request.memory);
+  // Smooth surfaces are halved as part of the levels.
+  pipeline::LoadedScene scene(request.scene, request.memory, smooth_levels_within(request.levels));
   const auto frames =
       config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
   if (!request.on_mesh) check_output(request.output, frames);
   const int levels = request.levels ? *request.levels : pipeline::levels_for(scene);
-  const pipeline::Displacement displacement(scene, subdivide(scene.surface(), 1 << levels));
+  const pipeline::Displacement displacement(
+      scene, subdivide(scene.surface(), 1 << (levels - scene.smooth_levels())));
   std::optional<pipeline::Outside> outside;
   if (!request.outside.empty()) outside.emplace(scene, request.outside);
   io::MeshFile mesh = mesh_of(scene, displacement.mesh());

@@ -13,8 +13,8 @@
 
 namespace plisse::pipeline {
 
-FrameFields::FrameFields(const config::SceneSettings& settings, int frame_count, std::vector<double> mask)
-    : mesh_(settings.model.path), files_(io::sequence_files(settings.bias.field)), mask_(std::move(mask)) {
+FrameFields::FrameFields(const config::SceneSettings& settings, int frame_count)
+    : mesh_(settings.model.path), files_(io::sequence_files(settings.bias.field)) {
   const auto frames = static_cast<std::size_t>(frame_count);
   if (files_.size() != frames) {
     throw Error(ExitCode::bad_input,
@@ -26,9 +26,8 @@ FrameFields::FrameFields(const config::SceneSettings& settings, int frame_count,
     meshes_ = io::sequence_files(mesh_);
 }
 
-FrameFields::FrameFields(std::shared_ptr<const std::vector<io::WrinkleField>> fields, int frame_count,
-                         std::vector<double> mask)
-    : in_memory_(std::move(fields)), mask_(std::move(mask)) {
+FrameFields::FrameFields(std::shared_ptr<const std::vector<io::WrinkleField>> fields, int frame_count)
+    : in_memory_(std::move(fields)) {
   if (in_memory_->size() != static_cast<std::size_t>(frame_count))
     throw Error(
         ExitCode::bad_input,
@@ -36,20 +35,17 @@ FrameFields::FrameFields(std::shared_ptr<const std::vector<io::WrinkleField>> fi
                     in_memory_->size(), frame_count));
 }
 
-std::vector<FieldTriangle> FrameFields::over(const Surface& surface, const io::Model& model,
-                                             const std::vector<glm::dvec3>& positions, int frame) const {
+paint::SurfaceField FrameFields::over(const Surface& surface, const io::Model& model,
+                                      const std::vector<glm::dvec3>& positions, int frame) const {
   const auto index = static_cast<std::size_t>(frame - 1);
   Surface base = surface;
   base.rest = positions;
-  if (in_memory_) {
-    const auto field = paint::field_on(base, in_memory_->at(index), glm::dmat4(1),
-                                       fmt::format("wrinkle field of frame {}", frame));
-    return paint::field_directly(base, rest_frames(base), field, mask_);
-  }
+  if (in_memory_)
+    return paint::field_on(base, in_memory_->at(index), glm::dmat4(1),
+                           fmt::format("wrinkle field of frame {}", frame));
   const auto file = io::read_wrinkle_field(files_.at(index), index < meshes_.size() ? meshes_[index] : mesh_);
-  const auto field =
-      paint::field_on(base, file, io::file_to_world(model.up, model.metres_per_unit), files_[index].string());
-  return paint::field_directly(base, rest_frames(base), field, mask_);
+  return paint::field_on(base, file, io::file_to_world(model.up, model.metres_per_unit),
+                         files_[index].string());
 }
 
 }  // namespace plisse::pipeline

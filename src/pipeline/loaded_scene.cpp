@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "config/frames.h"
 #include "config/options.h"
 #include "config/paint_file.h"
@@ -52,12 +53,17 @@ void for_key(const config::SceneSettings& scene, const std::string& key, const W
 
 }  // namespace
 
-LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemory& memory)
+int smooth_levels_within(const std::optional<int>& levels) {
+  return std::min(LoadedScene::most_smooth, levels.value_or(LoadedScene::most_smooth));
+}
+
+LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemory& memory, int smooth)
     : settings(given),
       model(memory.model ? *memory.model : scene::load_model(given)),
       animation(model, choice_of(given)),
       profile(passes::with_finer_waves(passes::make_profile(given.wrinkles.profile), given.wrinkles.fine,
-                                       given.wrinkles.fine_share)) {
+                                       given.wrinkles.fine_share)),
+      smooth_levels_(smooth) {
   scene::select_parts(animation.surface(), settings.wrinkles);
   if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = scene::default_wavelength(surface());
   rest = rest_frames(surface());
@@ -92,11 +98,11 @@ void LoadedScene::take_bias(const scene::InMemory& memory) {
   if (memory.fields && memory.fields->size() == 1) {
     take_field(memory.fields->front(), glm::dmat4(1), "wrinkle field");
   } else if (memory.fields) {
-    take_frame_fields({memory.fields, frames, waves.mask});
+    take_frame_fields({memory.fields, frames});
   } else if (!given.field.empty()) {
     for_key(settings, "bias.field", [&] {
       if (config::names_many_files(given.field))
-        take_frame_fields({settings, frames, waves.mask});
+        take_frame_fields({settings, frames});
       else
         take_field(io::read_wrinkle_field(given.field, settings.model.path),
                    io::file_to_world(model.up, model.metres_per_unit), given.field.string());
@@ -108,17 +114,21 @@ void LoadedScene::take_field(const io::WrinkleField& given, const glm::dmat4& to
                              const std::string& name) {
   const auto field = paint::field_on(surface(), given, to_world, name);
   if (settings.bias.use == config::FieldUse::bias)
-    paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
-  else
-    waves.field = paint::field_directly(surface(), rest, field, waves.mask);
+    return paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
+  const RestFrames own = rest;
+  smooth_all();
+  field_mask_ = waves.mask;
+  waves.field = drawn(animation.surface().rest, own, field);
 }
 
 // Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
 // the animation must not add waves.
 void LoadedScene::take_frame_fields(FrameFields fields) {
   fields_ = std::move(fields);
+  smooth_all();
+  field_mask_ = waves.mask;
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
-  waves.field = fields_.over(surface(), model, scene::posed(surface(), animation.pose(1)), 1);
+  waves.field = field_at(scene::posed(animation.surface(), animation.pose(1)), 1);
   field_frame_ = 1;
 }
 
@@ -129,30 +139,93 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
   has_solved_waves_ =
       std::ranges::any_of(solved_->frames, [](const auto& frame) { return !frame.amplitude.empty(); });
   if (!has_solved_waves_) return;
-  solved_mask_ = waves.mask;
+  smooth(*solved_);
+  field_mask_ = waves.mask;
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
-  waves.field = field_at(posed_at(animation, 1), 1);
+  waves.field = field_at({}, 1);
   field_frame_ = 1;
 }
 
-scene::Pose LoadedScene::posed_at(scene::Animation& posing, int frame) const {
-  scene::Pose pose = posing.pose(frame);
-  if (!solved_) return pose;
-  const SolvedClip::Frame& solved = solved_->frames.at(static_cast<std::size_t>(frame - 1));
-  return solved.base.empty() ? pose
-                             : scene::with_cloth(surface(), std::move(pose), solved_->welded, solved.base);
+void LoadedScene::smooth_all() {
+  SolvedClip sheets;
+  const Surface& surface = animation.surface();
+  for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) sheets.welded.push_back(v);
+  for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+    const auto corner = [&](std::size_t c) {
+      return surface.render_vertices[surface.triangles[3 * t + c]].welded;
+    };
+    sheets.faces.push_back({corner(0), corner(1), corner(2)});
+    sheets.triangle.push_back(t);
+  }
+  smooth(sheets);
 }
 
-std::vector<FieldTriangle> LoadedScene::field_at(const scene::Pose& pose, int frame) const {
-  if (has_solved_waves_)
-    return paint::field_of_cloth(surface(), *solved_, static_cast<std::size_t>(frame - 1), solved_mask_);
-  return fields_.over(surface(), model, scene::posed(surface(), pose), frame);
+void LoadedScene::smooth(const SolvedClip& sheets) {
+  constexpr double most_triangles = 5e5;  // more, and they are no larger than pixels
+  const auto triangles = static_cast<double>(sheets.faces.size());
+  while (smooth_levels_ > 0 && triangles * std::exp2(2 * smooth_levels_) > most_triangles) --smooth_levels_;
+  if (smooth_levels_ == 0) return;
+  try {
+    smooth_.emplace(animation.surface(), sheets, smooth_levels_);
+  } catch (const Error& error) {
+    log::warn(fmt::format("solved waves are drawn on the mesh as it is, not smooth: {}", error.what()));
+    return;
+  }
+  waves.wavelength = smooth_->spread(waves.wavelength);
+  waves.mask = smooth_->spread(waves.mask);
+  waves.wander = smooth_->spread(waves.wander);
+  if (!waves.bias.empty()) waves.bias = smooth_->spread(waves.bias);
+  rest = rest_frames(surface());
+}
+
+std::vector<FieldTriangle> LoadedScene::drawn_smooth(const SolvedClip::Frame& field) const {
+  const SmoothSurface::Refined refined = smooth_->refined(field);
+  return paint::field_of_cloth(surface(), refined.clip, 0, field_mask_, refined.gradient);
+}
+
+std::vector<FieldTriangle> LoadedScene::drawn(const std::vector<glm::dvec3>& coarse, const RestFrames& frames,
+                                              const paint::SurfaceField& field) const {
+  if (smooth_) return drawn_smooth({coarse, field.amplitude, field.phase});
+  Surface base = surface();
+  base.rest = coarse;
+  return paint::field_directly(base, frames, field, field_mask_);
+}
+
+LoadedScene::Posed LoadedScene::posed_at(scene::Animation& posing, int frame) const {
+  Posed result{posing.pose(frame), {}};
+  const Surface& own = animation.surface();
+  std::vector<glm::dvec3> base;
+  if (solved_) {
+    base = solved_->frames.at(static_cast<std::size_t>(frame - 1)).base;
+    if (!base.empty()) result.drawn = scene::with_cloth(own, std::move(result.drawn), solved_->welded, base);
+  }
+  if (!smooth_ && fields_.empty()) return result;
+  result.coarse = scene::posed(own, result.drawn);
+  if (!smooth_) return result;
+  result.drawn.palette.assign(1, glm::dmat4{1});
+  result.drawn.morph_weights.clear();
+  result.drawn.cache = smooth_->places(result.coarse, base);
+  return result;
+}
+
+std::vector<FieldTriangle> LoadedScene::field_at(const std::vector<glm::dvec3>& coarse, int frame) const {
+  if (!has_solved_waves_) {
+    const paint::SurfaceField field = fields_.over(animation.surface(), model, coarse, frame);
+    if (smooth_) return drawn(coarse, {}, field);
+    Surface base = surface();
+    base.rest = coarse;
+    return drawn(coarse, rest_frames(base), field);
+  }
+  const auto index = static_cast<std::size_t>(frame - 1);
+  return smooth_ ? drawn_smooth(solved_->frames.at(index))
+                 : paint::field_of_cloth(surface(), *solved_, index, field_mask_);
 }
 
 void LoadedScene::take_field(int step) {
   const int frame = frame_of_step(step);
   if (!has_field_a_frame() || frame == field_frame_) return;
-  waves.field = field_at(pose(step), frame);
+  pose(step);
+  waves.field = field_at(poses_.at(static_cast<std::size_t>(step - first_pose_)).coarse, frame);
   field_frame_ = frame;
 }
 
@@ -161,12 +234,14 @@ void LoadedScene::visit_fields(const std::function<void(const std::vector<FieldT
   scene::Animation posing(model, choice_of(settings));
   for (int frame = 1; frame <= posing.timeline().frame_count; ++frame) {
     if (has_solved_waves_ && solved_->frames[static_cast<std::size_t>(frame - 1)].amplitude.empty()) continue;
-    work(field_at(posed_at(posing, frame), frame));
+    work(field_at(posed_at(posing, frame).coarse, frame));
   }
 }
 
 std::vector<glm::dvec3> LoadedScene::painted(const config::PaintSettings& paint) const {
-  const paint::Canvas canvas{surface(), rest,
+  const Surface& own = animation.surface();
+  const RestFrames frames = smooth_ ? rest_frames(own) : rest;
+  const paint::Canvas canvas{own, frames,
                              [this](const config::PaintStroke& stroke) { return screen(stroke); }};
   return paint::paint(canvas, paint.strokes);
 }
@@ -197,7 +272,7 @@ paint::Screen LoadedScene::screen(const config::PaintStroke& stroke) const {
       scene::camera_at(given, model, animation, stroke.frame, bounds_, units).view_projection;
   screen.width = given.output.width;
   screen.height = given.output.height;
-  for (const glm::dvec3& x : scene::posed(surface(), posing.pose(stroke.frame)))
+  for (const glm::dvec3& x : scene::posed(animation.surface(), posing.pose(stroke.frame)))
     screen.positions.push_back(units.world(x));
   return screen;
 }
@@ -213,7 +288,7 @@ double LoadedScene::lead_at(int step) const {
 
 const scene::Pose& LoadedScene::pose(int step) {
   extend(step);
-  return poses_.at(static_cast<std::size_t>(step - first_pose_));
+  return poses_.at(static_cast<std::size_t>(step - first_pose_)).drawn;
 }
 
 void LoadedScene::drop_poses_before(int step) {
@@ -233,7 +308,7 @@ void LoadedScene::extend(int step) {
     const int next = static_cast<int>(chain_.size()) + 1;
     poses_.push_back(posed_at(animation, frame_of_step(next)));
     Hash hash = chain_.empty() ? state_base_ : chain_.back();
-    add_pose(hash, poses_.back());
+    add_pose(hash, poses_.back().drawn);
     chain_.push_back(hash);
   }
 }

@@ -5,15 +5,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/hash.h"
 #include "config/settings.h"
 #include "io/import.h"
 #include "mesh/model_units.h"
+#include "mesh/smooth_surface.h"
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "paint/canvas.h"
+#include "paint/field.h"
 #include "passes/render.h"
 #include "pipeline/frame_fields.h"
 #include "scene/animation.h"
@@ -23,8 +26,13 @@ namespace plisse::pipeline {
 
 class LoadedScene {
  public:
-  // Reads the model and prepares everything that needs no GPU. Throws Error(bad_input).
-  explicit LoadedScene(const config::SceneSettings& settings, const scene::InMemory& memory = {});
+  // Reads the model and prepares everything that needs no GPU. `smooth`: how often edges of surfaces with
+  // fields are halved at most, to draw them smooth; 0: they are drawn as their mesh is. Throws
+  // Error(bad_input).
+  explicit LoadedScene(const config::SceneSettings& settings, const scene::InMemory& memory = {},
+                       int smooth = most_smooth);
+  // Two: each wave is longer than an edge, so that a quarter of an edge is at most a quarter of a wave.
+  static constexpr int most_smooth = 2;
 
   config::SceneSettings settings;  // wavelength and camera resolved
   io::Model model;
@@ -34,7 +42,9 @@ class LoadedScene {
   ModelUnits units;
   passes::Profile profile;
 
-  const Surface& surface() const { return animation.surface(); }
+  // What is drawn: the model's own surface, or a finer one with smooth sheets in place of those with fields.
+  const Surface& surface() const { return smooth_ ? smooth_->surface() : animation.surface(); }
+  int smooth_levels() const { return smooth_ ? smooth_levels_ : 0; }
   double wavelength() const { return settings.wrinkles.wavelength; }
   // Camera and lights of a frame, in model units.
   passes::View view(int frame) const;
@@ -67,16 +77,29 @@ class LoadedScene {
   std::string frame_hash(int frame, const Hash& driver);
 
  private:
+  struct Posed {
+    scene::Pose drawn;               // of surface()
+    std::vector<glm::dvec3> coarse;  // places of the model's own welded vertices, metres
+  };
   void take_bias(const scene::InMemory& memory);
   void take_field(const io::WrinkleField& field, const glm::dmat4& to_world, const std::string& name);
   void take_frame_fields(FrameFields fields);
   void take_solved(const scene::InMemory& memory);
   // The animation's pose of a frame, or what was solved in its place.
-  scene::Pose posed_at(scene::Animation& posing, int frame) const;
-  std::vector<FieldTriangle> field_at(const scene::Pose& pose, int frame) const;
+  Posed posed_at(scene::Animation& posing, int frame) const;
+  std::vector<FieldTriangle> field_at(const std::vector<glm::dvec3>& coarse, int frame) const;
+  // Draws these sheets smooth from here on, if they can be.
+  void smooth(const SolvedClip& sheets);
+  void smooth_all();
+  // A field of the model's own surface on the one that is drawn.
+  std::vector<FieldTriangle> drawn(const std::vector<glm::dvec3>& coarse, const RestFrames& frames,
+                                   const paint::SurfaceField& field) const;
+  std::vector<FieldTriangle> drawn_smooth(const SolvedClip::Frame& field) const;
+  int smooth_levels_ = 0;
+  std::optional<SmoothSurface> smooth_;
   FrameFields fields_;  // one a frame, or none
   std::shared_ptr<const SolvedClip> solved_;
-  std::vector<double> solved_mask_;  // strength of each welded vertex
+  std::vector<double> field_mask_;  // strength of each welded vertex, of fields
   bool has_solved_waves_ = false;
   int field_frame_ = 0;
   paint::Screen screen(const config::PaintStroke& stroke) const;
@@ -84,10 +107,13 @@ class LoadedScene {
   int preroll_ = 0;
   scene::Animation::Bounds bounds_;
   Hash state_base_;
-  std::string constants_;          // part of every frame's hash, made at the first use
-  std::deque<scene::Pose> poses_;  // of steps first_pose_, first_pose_ + 1, …
+  std::string constants_;    // part of every frame's hash, made at the first use
+  std::deque<Posed> poses_;  // of steps first_pose_, first_pose_ + 1, …
   int first_pose_ = 1;
   std::vector<Hash> chain_;  // after each step
 };
+
+// How often edges of smooth surfaces may be halved where all edges are halved `levels` times.
+int smooth_levels_within(const std::optional<int>& levels);
 
 }  // namespace plisse::pipeline

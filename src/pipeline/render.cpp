@@ -182,7 +182,8 @@ class Run {
 // Loads the scene and the driver at the same time: a separate process reads the model.
 void Run::load() {
   auto loading = std::async(std::launch::async, log::in_this_scope([&] {
-                              return std::make_unique<LoadedScene>(request_.scene, request_.memory);
+                              return std::make_unique<LoadedScene>(request_.scene, request_.memory,
+                                                                   smooth_levels_within(request_.levels));
                             }));
   try {
     context_.emplace(request_.device);
@@ -218,7 +219,8 @@ void Run::begin_report() {
 // The splitting of a displaced surface depends on the whole clip, so it is a part of each frame's hash.
 void Run::split() {
   if (!request_.displace) return;
-  split_ = request_.levels ? subdivide(scene_->surface(), 1 << *request_.levels) : split_as_needed(*scene_);
+  split_ = request_.levels ? subdivide(scene_->surface(), 1 << (*request_.levels - scene_->smooth_levels()))
+                           : split_as_needed(*scene_);
   const auto bytes = std::as_bytes(std::span(split_->triangles));
   split_hash_ = Hash().add_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).hex();
 }

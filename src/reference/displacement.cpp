@@ -35,7 +35,7 @@ struct InPlane {
 InPlane in_plane_motion(const CarriedField& field, const Matrix3d& corners, const Vector3d& barycentric,
                         Blend blend) {
   const FieldSample at = sample(field, corners, barycentric, blend);
-  const Vector3d amplitude_slope = blend_weights(corners, barycentric, blend).gradients * field.amplitudes;
+  const Vector3d amplitude_slope = barycentric_gradients(corners) * field.amplitudes;
   const Vector3d phase_slope = 2 * pi * at.slope;
   const double twice = 4 * pi * at.turns, a = at.amplitude;
   const double slope = a * phase_slope.norm(), share = slope > 2 ? 0.5 / (slope * slope) : 0.125;

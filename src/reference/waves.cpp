@@ -140,12 +140,12 @@ FieldSample sample(const CarriedField& field, const Matrix3d& corners, const Vec
   const Matrix3d plane_slopes = barycentric_gradients(corners) * field.turns.transpose();  // column j: ∇τ_j
   const Vector3d turns = field.turns * barycentric;
   FieldSample result;
-  result.amplitude = blended.weights.dot(field.amplitudes);
+  result.amplitude = barycentric.dot(field.amplitudes);
   result.turns = blended.weights.dot(turns);
   result.slope = plane_slopes * blended.weights + blended.gradients * turns;
   const double phase = 2 * pi * result.turns;
   result.height = result.amplitude * std::cos(phase);
-  result.gradient = std::cos(phase) * (blended.gradients * field.amplitudes) -
+  result.gradient = std::cos(phase) * (barycentric_gradients(corners) * field.amplitudes) -
                     2 * pi * result.amplitude * std::sin(phase) * result.slope;
   return result;
 }
