@@ -177,4 +177,21 @@ std::vector<std::array<CornerField::Limit, 3>> CornerField::limits(
   return result;
 }
 
+void shut(std::vector<double>& values, const LoopLevel& level, const CornerField& field) {
+  for (std::size_t f = 0; f < level.faces.size(); ++f) {
+    if (field.known()[f]) continue;
+    for (const std::uint32_t v : level.faces[f]) values[v] = 0;
+  }
+}
+
+bool span(const glm::dvec3& first, const glm::dvec3& second) {
+  return glm::length(glm::cross(first, second)) > 1e-9 * (glm::dot(first, first) + glm::dot(second, second));
+}
+
+glm::dvec3 gradient(const glm::dvec3& first, const glm::dvec3& second, const CornerField::Limit& limit) {
+  const glm::dvec3 n = glm::cross(first, second);
+  const double area = glm::length(n);
+  return (limit.along[0] * glm::cross(second, n) + limit.along[1] * glm::cross(n, first)) / (area * area);
+}
+
 }  // namespace plisse

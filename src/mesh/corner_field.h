@@ -75,4 +75,11 @@ class CornerField {
   double period_ = 0;
 };
 
+// Sets the values of vertices to 0 (amplitudes) that a face has on which the field is unknown.
+void shut(std::vector<double>& values, const LoopLevel& level, const CornerField& field);
+
+// Whether two tangents span a plane, and the vector in it that has the limit's changes along them.
+bool span(const glm::dvec3& first, const glm::dvec3& second);
+glm::dvec3 gradient(const glm::dvec3& first, const glm::dvec3& second, const CornerField::Limit& limit);
+
 }  // namespace plisse

@@ -52,4 +52,14 @@ LoopSubdivision subdivide_loop(const std::vector<std::array<std::uint32_t, 3>>& 
                                std::uint32_t vertex_count, int levels,
                                const std::vector<std::uint32_t>& sharp = {});
 
+// Values of the vertices that rows of masks make, from those of the vertices that they are over.
+template <typename Value>
+std::vector<Value> applied(const Rows<LoopWeight>& masks, const std::vector<Value>& values) {
+  std::vector<Value> result(masks.offsets.size() - 1, Value(0));
+  for (std::size_t v = 0; v < result.size(); ++v)
+    for (std::uint32_t i = masks.offsets[v]; i < masks.offsets[v + 1]; ++i)
+      result[v] += masks.items[i].weight * values[masks.items[i].vertex];
+  return result;
+}
+
 }  // namespace plisse

@@ -73,31 +73,6 @@ void add_sharp_corners(const std::vector<Face>& faces, const std::vector<glm::dv
   }
 }
 
-template <typename Value>
-std::vector<Value> applied(const Rows<LoopWeight>& masks, const std::vector<Value>& values) {
-  std::vector<Value> result(masks.offsets.size() - 1, Value(0));
-  for (std::size_t v = 0; v < result.size(); ++v)
-    for (std::uint32_t i = masks.offsets[v]; i < masks.offsets[v + 1]; ++i)
-      result[v] += masks.items[i].weight * values[masks.items[i].vertex];
-  return result;
-}
-
-// No amplitude on faces without waves, nor on their edges.
-void shut(std::vector<double>& amplitude, const LoopLevel& level, const CornerField& phase) {
-  for (std::size_t f = 0; f < level.faces.size(); ++f) {
-    if (phase.known()[f]) continue;
-    for (const std::uint32_t v : level.faces[f]) amplitude[v] = 0;
-  }
-}
-
-// The vector in the plane of two tangents that has these products with them; 0 where they span none.
-glm::dvec3 gradient_from(const glm::dvec3& t, const glm::dvec3& u, const std::array<double, 2>& along) {
-  const glm::dvec3 n = glm::cross(t, u);
-  const double area = glm::length(n);
-  if (!(area > 1e-9 * (glm::dot(t, t) + glm::dot(u, u)))) return glm::dvec3(0);
-  return (along[0] * glm::cross(u, n) + along[1] * glm::cross(n, t)) / (area * area);
-}
-
 using Weights = std::array<int, 3>;  // of a face's corners, in parts of the whole
 // A multiple of 3, so that the middle of a triangle has weights as well.
 int whole_of(int levels) {
@@ -415,7 +390,8 @@ SmoothSurface::Refined SmoothSurface::refined(const SolvedClip::Frame& frame) co
       const std::uint32_t v = loop_.levels.back().faces[f][c];
       if (done[v] || !phase.known()[f] || !(fine.amplitude[v] > 0)) continue;
       done[v] = true;
-      result.gradient[v] = gradient_from(first_tangent[v], second_tangent[v], limits[f][c].along);
+      if (span(first_tangent[v], second_tangent[v]))
+        result.gradient[v] = gradient(first_tangent[v], second_tangent[v], limits[f][c]);
     }
   }
   return result;

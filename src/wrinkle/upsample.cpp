@@ -55,24 +55,6 @@ std::vector<std::uint32_t> sharp_corners(const BaseSurface& surface) {
   return sharp;
 }
 
-template <typename Value>
-std::vector<Value> applied(const Rows<LoopWeight>& masks, const std::vector<Value>& values, Value zero) {
-  std::vector<Value> result(masks.offsets.size() - 1, zero);
-  for (std::size_t v = 0; v < result.size(); ++v) {
-    for (std::uint32_t i = masks.offsets[v]; i < masks.offsets[v + 1]; ++i)
-      result[v] += masks.items[i].weight * values[masks.items[i].vertex];
-  }
-  return result;
-}
-
-// No amplitude on faces without waves, nor on their edges.
-void shut(std::vector<double>& amplitude, const LoopLevel& level, const CornerField& phase) {
-  for (std::size_t f = 0; f < level.faces.size(); ++f) {
-    if (phase.known()[f]) continue;
-    for (const std::uint32_t v : level.faces[f]) amplitude[v] = 0;
-  }
-}
-
 std::array<CornerField, 2> uv_fields(const LoopLevel& level,
                                      const std::vector<std::array<Eigen::Vector2d, 3>>& uv) {
   const auto axis = [&](Index i) {
@@ -103,9 +85,9 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
     const LoopLevel &coarse = loop.levels[l - 1], &fine = loop.levels[l];
     phase = phase.refined(coarse, fine, positions);
     for (CornerField& axis : uv) axis = axis.refined(coarse, fine, positions);
-    positions = applied(fine.masks, positions, glm::dvec3(0));
-    if (!lean.empty()) lean = applied(fine.masks, lean, glm::dvec3(0));
-    amplitude = applied(fine.masks, amplitude, 0.0);
+    positions = applied(fine.masks, positions);
+    if (!lean.empty()) lean = applied(fine.masks, lean);
+    amplitude = applied(fine.masks, amplitude);
     shut(amplitude, fine, phase);
   }
 
@@ -118,11 +100,11 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
     for (std::size_t l = loop.levels.size() - 1; l > 0; --l) at = loop.levels[l].parent[at];
     result.base_face[f] = at;
   }
-  const std::array<std::vector<glm::dvec3>, 2> tangents{applied(loop.tangents[0], positions, glm::dvec3(0)),
-                                                        applied(loop.tangents[1], positions, glm::dvec3(0))};
-  result.positions = points_to_eigen(applied(loop.limit, positions, glm::dvec3(0)));
-  if (!lean.empty()) result.lean = points_to_eigen(applied(loop.limit, lean, glm::dvec3(0)));
-  amplitude = applied(loop.limit, amplitude, 0.0);
+  const std::array<std::vector<glm::dvec3>, 2> tangents{applied(loop.tangents[0], positions),
+                                                        applied(loop.tangents[1], positions)};
+  result.positions = points_to_eigen(applied(loop.limit, positions));
+  if (!lean.empty()) result.lean = points_to_eigen(applied(loop.limit, lean));
+  amplitude = applied(loop.limit, amplitude);
   shut(amplitude, last, phase);
   result.amplitude =
       Eigen::Map<const Eigen::VectorXd>(amplitude.data(), static_cast<Index>(amplitude.size()));
@@ -139,7 +121,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
       if (done[v]) continue;
       const glm::dvec3 t = tangents[0][v], u = tangents[1][v], n = glm::cross(t, u);
       const double area = glm::length(n);
-      const bool spans = area > 1e-9 * (glm::dot(t, t) + glm::dot(u, u));
+      const bool spans = span(t, u);
       const auto column = static_cast<Index>(v);
       if (spans) result.normals.col(column) << n.x / area, n.y / area, n.z / area;
       if (!phase.known()[f] || !(amplitude[v] > 0)) continue;
@@ -147,9 +129,7 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
       const CornerField::Limit& limit = limits[f][c];
       result.phase[column] = limit.value;
       if (!spans) continue;
-      // t·g and u·g are what was found; g lies in their plane.
-      const glm::dvec3 g =
-          (limit.along[0] * glm::cross(u, n) + limit.along[1] * glm::cross(n, t)) / (area * area);
+      const glm::dvec3 g = gradient(t, u, limit);
       result.gradient.col(column) << g.x, g.y, g.z;
     }
   }
