@@ -14,9 +14,10 @@
 namespace plisse {
 namespace {
 
-// fps and time left; the latter in h:mm:ss, hours only where there are any.
+// fps and time left; the latter in h:mm:ss, hours only where there are any. Nothing before there is anything
+// to go by.
 std::string rates(int done, int total, double seconds) {
-  if (done < 1 || !(seconds > 0)) return "";
+  if (done < 1 || !(seconds >= 0.01)) return "";
   const auto left = static_cast<long long>(std::ceil(seconds / done * std::max(total - done, 0)));
   const std::string clock = left < 3600
                                 ? fmt::format("{}:{:02}", left / 60, left % 60)
