@@ -55,6 +55,40 @@ std::vector<bool> turned_to_one_side(const std::vector<Face>& faces) {
   return turned;
 }
 
+// Gives each fan of faces round a vertex a vertex of its own; returns the vertex that each of them was.
+std::vector<std::uint32_t> part_fans(std::vector<Face>& faces) {
+  // Corners (3 · face + corner) are one vertex where faces share a side at it.
+  std::vector<std::uint32_t> same(3 * faces.size());
+  for (std::uint32_t c = 0; c < same.size(); ++c) same[c] = c;
+  const auto of = [&](std::uint32_t c) {
+    while (same[c] != c) c = same[c] = same[same[c]];
+    return c;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 2>>
+      sides;  // corners at both ends
+  for (std::uint32_t f = 0; f < faces.size(); ++f)
+    for (std::uint32_t s = 0; s < 3; ++s) {
+      std::uint32_t a = 3 * f + s, b = 3 * f + (s + 1) % 3;
+      if (faces[f][s] > faces[f][(s + 1) % 3]) std::swap(a, b);
+      const auto [entry, fresh] =
+          sides.try_emplace(ordered(faces[f][s], faces[f][(s + 1) % 3]), std::array{a, b});
+      if (fresh) continue;
+      same[of(a)] = of(entry->second[0]);
+      same[of(b)] = of(entry->second[1]);
+    }
+  std::vector<std::uint32_t> number(same.size(), none), was;
+  for (std::uint32_t c = 0; c < same.size(); ++c) {
+    std::uint32_t& own = number[of(c)];
+    std::uint32_t& corner = faces[c / 3][c % 3];
+    if (own == none) {
+      own = static_cast<std::uint32_t>(was.size());
+      was.push_back(corner);
+    }
+    corner = own;
+  }
+  return was;
+}
+
 // Corners of the outline that turn by more than 60 degrees.
 void add_sharp_corners(const std::vector<Face>& faces, const std::vector<glm::dvec3>& rest,
                        std::vector<bool>& sharp) {
@@ -108,6 +142,71 @@ std::vector<std::array<Weights, 3>> places_on_roots(const LoopSubdivision& loop,
 }
 
 }  // namespace
+
+std::vector<bool> deforming(const SolvedClip& sheets, const std::vector<glm::dvec3>& rest) {
+  std::vector<std::uint32_t> shell(sheets.welded.size());
+  for (std::uint32_t v = 0; v < shell.size(); ++v) shell[v] = v;
+  const auto of = [&](std::uint32_t v) {
+    while (shell[v] != v) v = shell[v] = shell[shell[v]];
+    return v;
+  };
+  for (const Face& f : sheets.faces)
+    for (const std::uint32_t v : {f[1], f[2]}) shell[of(v)] = of(f[0]);
+
+  std::vector<bool> deforms(shell.size(), false);
+  for (const SolvedClip::Frame& frame : sheets.frames) {
+    if (frame.base.empty()) continue;
+    const auto each_edge = [&](const auto& work) {
+      for (const Face& f : sheets.faces)
+        for (std::size_t s = 0; s < 3; ++s) {
+          const std::uint32_t a = f[s], b = f[(s + 1) % 3];
+          work(of(a), glm::distance(rest[sheets.welded[a]], rest[sheets.welded[b]]),
+               glm::distance(frame.base[a], frame.base[b]));
+        }
+    };
+    std::vector<double> before(shell.size(), 0), now(shell.size(), 0);
+    each_edge([&](std::uint32_t s, double at_rest, double here) {
+      before[s] += at_rest;
+      now[s] += here;
+    });
+    // Models have the digits of single precision, 6e-8 of what is farthest from the origin, at both ends of
+    // an edge, at rest and here.
+    double farthest = 0;
+    for (const glm::dvec3& x : frame.base) farthest = std::max(farthest, glm::length(x));
+    for (const std::uint32_t v : sheets.welded) farthest = std::max(farthest, glm::length(rest[v]));
+    each_edge([&](std::uint32_t s, double at_rest, double here) {
+      const double scale = before[s] > 0 ? now[s] / before[s] : 1;
+      if (std::abs(here - scale * at_rest) > 1e-6 * farthest * std::max(scale, 1.0)) deforms[s] = true;
+    });
+  }
+  std::vector<bool> result;
+  for (const Face& f : sheets.faces) result.push_back(deforms[of(f[0])]);
+  return result;
+}
+
+std::vector<bool> smooth_at_rest(const SolvedClip& sheets, const Surface& surface) {
+  const double least = std::cos(std::numbers::pi / 6);
+  const std::vector<bool> turned = turned_to_one_side(sheets.faces);
+  std::vector<bool> hard(sheets.welded.size(), false);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> normals;  // of the first face at an edge
+  std::vector<glm::dvec3> shown(hard.size(), glm::dvec3(0));              // of the first face at a vertex
+  for (std::size_t f = 0; f < sheets.faces.size(); ++f) {
+    const Face& face = sheets.faces[f];
+    const auto at = [&](std::size_t c) { return surface.rest[sheets.welded[face[c]]]; };
+    const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0)) * (turned[f] ? -1.0 : 1.0);
+    const glm::dvec3 normal = glm::length(area) > 0 ? glm::normalize(area) : glm::dvec3(0);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [entry, fresh] = normals.try_emplace(ordered(face[c], face[(c + 1) % 3]), normal);
+      if (!fresh && glm::dot(entry->second, normal) < least) hard[face[c]] = hard[face[(c + 1) % 3]] = true;
+      const glm::dvec3 own = surface.render_vertices[surface.triangles[3 * sheets.triangle[f] + c]].normal;
+      if (shown[face[c]] == glm::dvec3(0)) shown[face[c]] = own;
+      if (glm::dot(shown[face[c]], own) < least) hard[face[c]] = true;
+    }
+  }
+  std::vector<bool> result;
+  for (const Face& f : sheets.faces) result.push_back(!hard[f[0]] && !hard[f[1]] && !hard[f[2]]);
+  return result;
+}
 
 // Numbers the vertices of the fine surface, and makes its triangles.
 class SmoothSurface::Builder {
@@ -204,11 +303,26 @@ class SmoothSurface::Builder {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> render_;
 };
 
-SmoothSurface::SmoothSurface(const Surface& coarse, const SolvedClip& sheets, int levels)
-    : welded_(sheets.welded), turned_(turned_to_one_side(sheets.faces)) {
+SmoothSurface::SmoothSurface(const Surface& coarse, const SolvedClip& sheets, int levels,
+                             const std::vector<bool>& chosen)
+    : sheet_faces_(sheets.faces) {
+  std::vector<Face> faces;  // as the surface has them, then as Loop needs them
+  for (std::uint32_t f = 0; f < sheets.faces.size(); ++f) {
+    if (!chosen.empty() && !chosen[f]) continue;
+    chosen_.push_back(f);
+    faces.push_back(sheets.faces[f]);
+  }
+  own_ = part_fans(faces);
+  for (const std::uint32_t v : own_) welded_.push_back(sheets.welded[v]);
+  turned_ = turned_to_one_side(faces);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (turned_[f]) faces[f] = over(faces[f]);
   const int whole = whole_of(levels);
   std::vector<std::uint32_t> sheet_of(coarse.triangle_count(), none);  // of a triangle: its face
-  for (std::uint32_t f = 0; f < sheets.faces.size(); ++f) sheet_of[sheets.triangle[f]] = f;
+  for (std::uint32_t f = 0; f < faces.size(); ++f) sheet_of[sheets.triangle[chosen_[f]]] = f;
+  std::vector<std::uint32_t> flat_of(coarse.triangle_count(), none);  // the face that is not smooth
+  for (std::uint32_t f = 0; f < sheets.faces.size(); ++f)
+    if (sheet_of[sheets.triangle[f]] == none) flat_of[sheets.triangle[f]] = f;
   std::vector<bool> shared(coarse.vertex_count(), false);
   const auto welded_corner = [&](std::size_t t, std::size_t c) {
     return coarse.render_vertices[coarse.triangles[3 * t + c]].welded;
@@ -217,9 +331,6 @@ SmoothSurface::SmoothSurface(const Surface& coarse, const SolvedClip& sheets, in
     for (std::size_t c = 0; c < 3; ++c)
       if (sheet_of[t] == none) shared[welded_corner(t, c)] = true;
 
-  std::vector<Face> faces;
-  for (std::size_t f = 0; f < sheets.faces.size(); ++f)
-    faces.push_back(turned_[f] ? over(sheets.faces[f]) : sheets.faces[f]);
   std::vector<glm::dvec3> rest;
   std::vector<bool> stays;
   for (const std::uint32_t v : welded_) {
@@ -243,7 +354,7 @@ SmoothSurface::SmoothSurface(const Surface& coarse, const SolvedClip& sheets, in
   fine_triangle_.resize(last.faces.size());
   std::vector<std::array<std::uint32_t, 3>> fine_corners(last.faces.size());  // render vertices
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    const std::size_t triangle = sheets.triangle[f];
+    const std::size_t triangle = sheets.triangle[chosen_[f]];
     for (const std::uint32_t small : of_root[f]) {
       Face own = last.faces[small];
       std::array<Weights, 3> weights = at[small];
@@ -275,25 +386,35 @@ SmoothSurface::SmoothSurface(const Surface& coarse, const SolvedClip& sheets, in
         }
         continue;
       }
-      std::vector<std::uint32_t> outline;
+      struct Point {
+        std::uint32_t vertex;  // render vertex
+        Weights weights;
+      };
+      std::vector<Point> outline;
       for (std::size_t s = 0; s < 3; ++s) {
-        outline.push_back(builder.render_of(t, s));
-        for (const Weights& weights : builder.on_side(t, s)) {
-          const std::uint32_t welded = builder.welded_at(t, weights, 0);
-          outline.push_back(builder.render_at(t, weights, welded));
-        }
+        Weights corner{};
+        corner[s] = whole;
+        outline.push_back({builder.render_of(t, s), corner});
+        for (const Weights& weights : builder.on_side(t, s))
+          outline.push_back({builder.render_at(t, weights, builder.welded_at(t, weights, 0)), weights});
       }
+      const auto add = [&](const Point& a, const Point& b, const Point& c) {
+        Flat flat{static_cast<std::uint32_t>(fine_.triangle_count()), flat_of[t], {}};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t i = 0; i < 3; ++i)
+            flat.weights[k][i] = static_cast<double>((k == 0 ? a : k == 1 ? b : c).weights[i]) / whole;
+        if (flat.face != none) flat_.push_back(flat);
+        for (const std::uint32_t v : {a.vertex, b.vertex, c.vertex}) fine_.triangles.push_back(v);
+      };
       if (outline.size() == 3) {
-        fine_.triangles.insert(fine_.triangles.end(), outline.begin(), outline.end());
+        add(outline[0], outline[1], outline[2]);
         continue;
       }
       const Weights middle{whole / 3, whole / 3, whole / 3};  // and a fan round it
-      const std::uint64_t number = (std::uint64_t{1} << 32U) + t;
-      const std::uint32_t welded = builder.welded_at(t, middle, number);
-      const std::uint32_t centre = builder.render_at(t, middle, welded);
+      const std::uint32_t welded = builder.welded_at(t, middle, (std::uint64_t{1} << 32U) + t);
+      const Point centre{builder.render_at(t, middle, welded), middle};
       for (std::size_t k = 0; k < outline.size(); ++k)
-        for (const std::uint32_t v : {centre, outline[k], outline[(k + 1) % outline.size()]})
-          fine_.triangles.push_back(v);
+        add(centre, outline[k], outline[(k + 1) % outline.size()]);
     }
     own.triangle_count = static_cast<std::uint32_t>(fine_.triangle_count()) - own.first_triangle;
     fine_.parts.push_back(std::move(own));
@@ -324,9 +445,9 @@ std::vector<glm::dvec3> SmoothSurface::limit_of(const std::vector<glm::dvec3>& b
 
 std::vector<glm::dvec3> SmoothSurface::places(const std::vector<glm::dvec3>& coarse,
                                               const std::vector<glm::dvec3>& base) const {
-  std::vector<glm::dvec3> own = base;
-  if (own.empty())
-    for (const std::uint32_t v : welded_) own.push_back(coarse[v]);
+  std::vector<glm::dvec3> own;
+  for (std::size_t v = 0; v < own_.size(); ++v)
+    own.push_back(base.empty() ? coarse[welded_[v]] : base[own_[v]]);
   const std::vector<glm::dvec3> limit = limit_of(own);
   // Sheets that only touch are drawn at the mean of their vertices.
   std::vector<glm::dvec3> result = spread(coarse), sum(result.size(), glm::dvec3(0));
@@ -342,6 +463,34 @@ std::vector<glm::dvec3> SmoothSurface::places(const std::vector<glm::dvec3>& coa
   return result;
 }
 
+// Their corners are vertices of their own: nothing is smooth across their sides.
+void SmoothSurface::add_flat(const SolvedClip::Frame& frame, Refined& result) const {
+  SolvedClip::Frame& fine = result.clip.frames.front();
+  for (const Flat& flat : flat_) {
+    const Face& face = sheet_faces_[flat.face];
+    const auto& phase = frame.phase[flat.face];
+    const glm::dvec3 t = frame.base[face[1]] - frame.base[face[0]],
+                     u = frame.base[face[2]] - frame.base[face[0]];
+    const glm::dvec3 slope =
+        span(t, u) ? gradient(t, u, {phase[0], {phase[1] - phase[0], phase[2] - phase[0]}}) : glm::dvec3(0);
+    Face& corners = result.clip.faces.emplace_back();
+    auto& phases = fine.phase.emplace_back();
+    result.clip.triangle.push_back(flat.triangle);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::array<double, 3>& w = flat.weights[c];
+      corners[c] = static_cast<std::uint32_t>(fine.base.size());
+      fine.base.push_back(w[0] * frame.base[face[0]] + w[1] * frame.base[face[1]] +
+                          w[2] * frame.base[face[2]]);
+      fine.amplitude.push_back(w[0] * frame.amplitude[face[0]] + w[1] * frame.amplitude[face[1]] +
+                               w[2] * frame.amplitude[face[2]]);
+      phases[c] = w[0] * phase[0] + w[1] * phase[1] + w[2] * phase[2];
+      result.gradient.push_back(slope);
+      const std::uint32_t r = fine_.triangles[3 * std::size_t{flat.triangle} + c];
+      result.clip.welded.push_back(fine_.render_vertices[r].welded);
+    }
+  }
+}
+
 SmoothSurface::Refined SmoothSurface::refined(const SolvedClip::Frame& frame) const {
   Refined result;
   SolvedClip& clip = result.clip;
@@ -351,21 +500,23 @@ SmoothSurface::Refined SmoothSurface::refined(const SolvedClip::Frame& frame) co
   for (std::uint32_t& w : clip.welded)
     if (w == none) w = 0;  // of a vertex that no face has
   SolvedClip::Frame& fine = clip.frames.emplace_back();
-  fine.base = limit_of(frame.base);
+  std::vector<glm::dvec3> x;
+  for (const std::uint32_t v : own_) x.push_back(frame.base[v]);
+  fine.base = limit_of(x);
   if (frame.amplitude.empty()) return result;
 
+  std::vector<double> amplitude;
+  for (const std::uint32_t v : own_) amplitude.push_back(frame.amplitude[v]);
   const LoopLevel& first = loop_.levels.front();
   std::vector<bool> waves;
   std::vector<std::array<double, 3>> phases;
   for (std::size_t f = 0; f < first.faces.size(); ++f) {
     const Face& t = first.faces[f];
-    waves.push_back(frame.amplitude[t[0]] > 0 || frame.amplitude[t[1]] > 0 || frame.amplitude[t[2]] > 0);
-    auto phase = frame.phase[f];
+    waves.push_back(amplitude[t[0]] > 0 || amplitude[t[1]] > 0 || amplitude[t[2]] > 0);
+    auto phase = frame.phase[chosen_[f]];
     if (turned_[f]) std::swap(phase[1], phase[2]);
     phases.push_back(phase);
   }
-  std::vector<double> amplitude = frame.amplitude;
-  std::vector<glm::dvec3> x = frame.base;
   CornerField phase(first, std::move(phases), waves, 2 * std::numbers::pi, amplitude);
   for (std::size_t l = 1; l < loop_.levels.size(); ++l) {
     const LoopLevel &before = loop_.levels[l - 1], &now = loop_.levels[l];
@@ -394,6 +545,7 @@ SmoothSurface::Refined SmoothSurface::refined(const SolvedClip::Frame& frame) co
         result.gradient[v] = gradient(first_tangent[v], second_tangent[v], limits[f][c]);
     }
   }
+  add_flat(frame, result);
   return result;
 }
 

@@ -15,14 +15,25 @@
 
 namespace plisse {
 
+// Of each face of the sheets: whether its shell is, in any frame, more than moved, turned and scaled as a
+// whole. Others have no waves, and are hard things as often as cloth. rest: of the surface's welded vertices.
+std::vector<bool> deforming(const SolvedClip& sheets, const std::vector<glm::dvec3>& rest);
+
+// Of each face: whether the model is smooth there at rest, so that a smooth surface is no other shape: at
+// none of its vertices do faces of the sheets meet, or the model's normals part, at more than 30 degrees
+// (tubes have at least twelve edges).
+std::vector<bool> smooth_at_rest(const SolvedClip& sheets, const Surface& surface);
+
 class SmoothSurface {
  public:
-  // `sheets`: which triangles, as a cloth with vertices of its own; its frames have no part in it. Corners of
+  // `sheets`: which triangles, as a cloth with vertices of its own; its frames have no part in it. `chosen`:
+  // which of its faces; the others stay flat triangles, on which fields are linear; empty: all. Corners of
   // their outline that turn by more than 60 degrees at rest stay sharp; vertices that other triangles share
   // stay where they are, and edges that they share straight, so that there are no gaps. Every edge is halved
   // `levels` times, 1 … 4. Throws Error(bad_input) where an edge has more than two faces of the sheets, or
   // faces cannot be turned to one side.
-  SmoothSurface(const Surface& coarse, const SolvedClip& sheets, int levels);
+  SmoothSurface(const Surface& coarse, const SolvedClip& sheets, int levels,
+                const std::vector<bool>& chosen = {});
 
   // The welded vertices of the coarse surface, then those on edges and in triangles. It has no bones and no
   // morph targets: poses are given as places.
@@ -57,17 +68,28 @@ class SmoothSurface {
     std::array<std::uint32_t, 3> vertex{};
     std::array<double, 3> weight{};
   };
+  // A triangle of the fine surface on a face of the sheets that is not smooth.
+  struct Flat {
+    std::uint32_t triangle = 0, face = 0;
+    std::array<std::array<double, 3>, 3> weights{};  // of its corners: those of the face's
+  };
   class Builder;
+  void add_flat(const SolvedClip::Frame& frame, Refined& result) const;
   std::vector<glm::dvec3> limit_of(const std::vector<glm::dvec3>& base) const;
 
   Surface fine_;
   std::vector<From> from_;  // of welded vertices that the coarse surface lacks
   LoopSubdivision loop_;
-  std::vector<std::uint32_t> welded_;                     // of the sheets' own coarse vertices
-  std::vector<bool> turned_;                              // coarse faces that were turned over for Loop
+  // Of Loop's coarse vertices: the sheets' own one, which has several where faces hang together only at it;
+  // the surface's.
+  std::vector<std::uint32_t> own_, welded_;
+  std::vector<std::uint32_t> chosen_;                     // faces of the sheets: Loop's coarse faces
+  std::vector<bool> turned_;                              // of those: they were turned over for Loop
   std::vector<std::uint32_t> fine_welded_;                // of the sheets' fine vertices
   std::vector<std::array<std::uint32_t, 3>> fine_faces_;  // of those, corners as the surface has them
-  std::vector<std::uint32_t> fine_triangle_, root_;       // of each: the fine surface's; the coarse face
+  std::vector<Flat> flat_;
+  std::vector<std::array<std::uint32_t, 3>> sheet_faces_;  // all of the coarse ones
+  std::vector<std::uint32_t> fine_triangle_, root_;        // of each: the fine surface's; the coarse face
 };
 
 }  // namespace plisse

@@ -139,7 +139,10 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
   has_solved_waves_ =
       std::ranges::any_of(solved_->frames, [](const auto& frame) { return !frame.amplitude.empty(); });
   if (!has_solved_waves_) return;
-  smooth(*solved_);
+  std::vector<bool> cloth = deforming(*solved_, surface().rest);
+  const std::vector<bool> soft = smooth_at_rest(*solved_, surface());
+  for (std::size_t f = 0; f < cloth.size(); ++f) cloth[f] = cloth[f] && soft[f];
+  smooth(*solved_, cloth);
   field_mask_ = waves.mask;
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
   waves.field = field_at({}, 1);
@@ -157,16 +160,17 @@ void LoadedScene::smooth_all() {
     sheets.faces.push_back({corner(0), corner(1), corner(2)});
     sheets.triangle.push_back(t);
   }
-  smooth(sheets);
+  smooth(sheets, std::vector<bool>(sheets.faces.size(), true));
 }
 
-void LoadedScene::smooth(const SolvedClip& sheets) {
+void LoadedScene::smooth(const SolvedClip& sheets, const std::vector<bool>& chosen) {
   constexpr double most_triangles = 5e5;  // more, and they are no larger than pixels
-  const auto triangles = static_cast<double>(sheets.faces.size());
+  const auto triangles = static_cast<double>(std::ranges::count(chosen, true));
+  if (triangles == 0) return;
   while (smooth_levels_ > 0 && triangles * std::exp2(2 * smooth_levels_) > most_triangles) --smooth_levels_;
   if (smooth_levels_ == 0) return;
   try {
-    smooth_.emplace(animation.surface(), sheets, smooth_levels_);
+    smooth_.emplace(animation.surface(), sheets, smooth_levels_, chosen);
   } catch (const Error& error) {
     log::warn(fmt::format("solved waves are drawn on the mesh as it is, not smooth: {}", error.what()));
     return;

@@ -31,7 +31,7 @@ class LoadedScene {
   // Error(bad_input).
   explicit LoadedScene(const config::SceneSettings& settings, const scene::InMemory& memory = {},
                        int smooth = most_smooth);
-  // Two: each wave is longer than an edge, so that a quarter of an edge is at most a quarter of a wave.
+  // Two: where waves are longer than edges, the linear pieces left are at most a quarter of a wave.
   static constexpr int most_smooth = 2;
 
   config::SceneSettings settings;  // wavelength and camera resolved
@@ -88,8 +88,8 @@ class LoadedScene {
   // The animation's pose of a frame, or what was solved in its place.
   Posed posed_at(scene::Animation& posing, int frame) const;
   std::vector<FieldTriangle> field_at(const std::vector<glm::dvec3>& coarse, int frame) const;
-  // Draws these sheets smooth from here on, if they can be.
-  void smooth(const SolvedClip& sheets);
+  // Draws these faces of the sheets smooth from here on, if they can be.
+  void smooth(const SolvedClip& sheets, const std::vector<bool>& chosen);
   void smooth_all();
   // A field of the model's own surface on the one that is drawn.
   std::vector<FieldTriangle> drawn(const std::vector<glm::dvec3>& coarse, const RestFrames& frames,

@@ -197,6 +197,101 @@ TEST(SmoothSurface, ATubeIsRound) {
   EXPECT_LT(most - least, 0.002);  // facets of the coarse tube: 1 − cos(π/12) = .034
 }
 
+// Of two squares one is bent in the second frame; the other is turned, moved and scaled, and stays as it is
+// modelled.
+TEST(SmoothSurface, WhatOnlyMovesAsAWholeStaysAsItIs) {
+  Surface surface = square(3);
+  const auto count = static_cast<std::uint32_t>(surface.vertex_count());
+  for (std::uint32_t v = 0; v < count; ++v) {
+    surface.rest.push_back(surface.rest[v] + glm::dvec3(2, 0, 0));
+    surface.render_vertices.push_back({count + v});
+  }
+  const std::vector<std::uint32_t> first = surface.triangles;
+  for (const std::uint32_t v : first) surface.triangles.push_back(count + v);
+  surface.bind = surface.rest;
+  surface.bind_normal.assign(surface.rest.size(), glm::dvec3(0, 0, 1));
+  surface.parts[0].triangle_count *= 2;
+  build_adjacency(surface);
+  SolvedClip sheets = sheets_of(surface, [](std::uint32_t) { return true; });
+  sheets.frames.resize(2);
+  sheets.frames[0].base = surface.rest;
+  for (std::uint32_t v = 0; v < 2 * count; ++v) {
+    const glm::dvec3 x = surface.rest[v];
+    const glm::dvec3 bent(x.x, x.y, 0.1 * x.x * x.x), whole(3 - 1.5 * x.y, 1.5 * x.x, 4);
+    // As files have it.
+    sheets.frames[1].base.emplace_back(glm::vec3(v < count ? bent : whole));
+  }
+  const std::vector<bool> chosen = deforming(sheets, surface.rest);
+  for (std::size_t f = 0; f < chosen.size(); ++f) EXPECT_EQ(chosen[f], f < first.size() / 3) << f;
+  const SmoothSurface smooth(surface, sheets, 2, chosen);
+  EXPECT_EQ(smooth.surface().triangle_count(), 17 * first.size() / 3);
+  const auto places = smooth.places(sheets.frames[1].base, sheets.frames[1].base);
+  for (std::uint32_t v = count; v < 2 * count; ++v) EXPECT_EQ(places[v], sheets.frames[1].base[v]);
+  // Its waves are those of the square that is left.
+  SolvedClip::Frame frame = sheets.frames[1];
+  frame.amplitude.assign(2 * count, 0);
+  for (std::uint32_t v = 0; v < count; ++v) frame.amplitude[v] = 0.01;
+  frame.phase.assign(sheets.faces.size(), {0.5, 0.5, 0.5});
+  const SmoothSurface::Refined fine = smooth.refined(frame);
+  EXPECT_EQ(fine.clip.faces.size(), smooth.surface().triangle_count());
+  for (std::size_t f = 0; f < fine.clip.faces.size(); ++f)
+    if (f < 16 * first.size() / 3) {
+      EXPECT_NEAR(fine.clip.frames.front().phase[f][0], 0.5, 1e-12);
+    } else {
+      EXPECT_EQ(fine.clip.frames.front().amplitude[fine.clip.faces[f][0]], 0);
+    }
+}
+
+// A roof: two slopes that meet at a right angle. Beside the ridge its faces stay as they are modelled, with
+// waves that are linear on them and go on without a step into the smooth faces; faces that hang together only
+// at a vertex are no obstacle.
+TEST(SmoothSurface, HardEdgesStayAndKeepTheirWaves) {
+  Surface surface = square(6);
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+    const double x = surface.rest[v].x - 0.5;  // columns are at sixths, moved by less than a tenth of that
+    surface.rest[v].z = -std::abs(std::abs(x) < 0.05 ? 0.0 : x);
+    if (std::abs(x) < 0.05) surface.rest[v].x = 0.5;
+  }
+  surface.bind = surface.rest;
+  const RestFrames frames = rest_frames(surface);
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+    surface.render_vertices[v].normal = glm::vec3(frames.normal[v]);
+  const SolvedClip sheets = sheets_of(surface, [](std::uint32_t) { return true; });
+  std::vector<bool> chosen = smooth_at_rest(sheets, surface);
+  for (std::size_t f = 0; f < chosen.size(); ++f) {
+    bool ridge = false;
+    for (const std::uint32_t v : sheets.faces[f]) ridge = ridge || surface.rest[v].x == 0.5;
+    EXPECT_EQ(chosen[f], !ridge);
+  }
+  chosen[0] = chosen[1] = chosen[14] = chosen[15] = true;   // in two cells that share a corner,
+  chosen[2] = chosen[3] = chosen[12] = chosen[13] = false;  // but no side
+  const SmoothSurface smooth(surface, sheets, 2, chosen);
+  const auto phase = [](const glm::dvec3& x) { return 7 * x.x + 5 * x.y - 4 * x.z; };
+  SolvedClip::Frame frame;
+  frame.base = surface.rest;
+  for (const glm::dvec3& x : surface.rest) frame.amplitude.push_back(0.01 + 0.002 * x.y);
+  for (const auto& face : sheets.faces) {
+    auto& own = frame.phase.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) own[c] = phase(surface.rest[face[c]]);
+  }
+  const SmoothSurface::Refined fine = smooth.refined(frame);
+  const SolvedClip::Frame& now = fine.clip.frames.front();
+  std::vector<bool> seen(smooth.surface().triangle_count(), false);
+  for (std::size_t f = 0; f < fine.clip.faces.size(); ++f) {
+    EXPECT_FALSE(seen[fine.clip.triangle[f]]);
+    seen[fine.clip.triangle[f]] = true;
+    for (std::size_t c = 0; c < 3; ++c) {
+      // On the roof's planes everything is linear, on either side of a face's edges.
+      const std::uint32_t v = fine.clip.faces[f][c];
+      const glm::dvec3 x = smooth.surface().rest[fine.clip.welded[v]];
+      EXPECT_LT(glm::distance(now.base[v], x), 1e-12);
+      EXPECT_NEAR(now.phase[f][c], phase(x), 1e-9);
+      EXPECT_NEAR(now.amplitude[v], 0.01 + 0.002 * x.y, 1e-12);
+    }
+  }
+  for (const bool s : seen) EXPECT_TRUE(s);  // none without its waves
+}
+
 TEST(SmoothSurface, SaysWhatIsNoSheet) {
   Surface surface = square(2);
   // A third triangle at the diagonal.
