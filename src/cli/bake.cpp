@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -99,7 +101,10 @@ int run_bake(Arguments& arguments) {
   }
   pipeline::BakeRequest request = arguments.request();
   install_interrupt_handlers();
-  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common, [&] {
+    pipeline::check(request);
+    check_writable(std::filesystem::path(request.output) / "height_0001.png");
+  });
   if (solved.interrupted) {
     write_report({{"interrupted", true}}, arguments.common.json());
     return 128 + signal_number();

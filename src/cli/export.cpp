@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -13,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/solved_scene.h"
+#include "config/frames.h"
 #include "mesh/subdivide.h"
 #include "pipeline/export.h"
 
@@ -78,7 +80,10 @@ int run_export(Arguments& arguments) {
   request.device = arguments.device.device();
   request.shader_folder = arguments.shaders;
   install_interrupt_handlers();
-  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common, [&] {
+    pipeline::check(request);
+    check_writable(config::numbered_path(request.output, 1));
+  });
   if (solved.interrupted) {
     write_report({{"interrupted", true}}, arguments.common.json());
     return 128 + signal_number();

@@ -162,8 +162,9 @@ int run_render(Arguments& arguments) {
 
   if (!arguments.common.json().empty() && arguments.common.json() != "-")
     check_writable(arguments.common.json());
-  if (request.scene.solve.on) check_writable(config::frame_path(request.scene.output.path, 1));
-  SolvedRun solved = arguments.solve.run(request.scene, arguments.common);
+  SolvedRun solved = arguments.solve.run(request.scene, arguments.common, [&] {
+    check_writable(config::frame_path(request.scene.output.path, 1));
+  });
   if (solved.interrupted) {
     write_report({{"interrupted", true}}, arguments.common.json());
     return 128 + signal_number();

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "cloth/solve_scene.h"
@@ -31,9 +32,12 @@ ordered_json to_json(const cloth::SolvedFrame& frame) {
 
 }  // namespace
 
-SolvedRun SolveArguments::run(const config::SceneSettings& scene, const CommonArguments& common) const {
+SolvedRun SolveArguments::run(const config::SceneSettings& scene, const CommonArguments& common,
+                              const std::function<void()>& before) const {
   SolvedRun run;
   if (!scene.solve.on) return run;
+  if (!common.json().empty() && common.json() != "-") check_writable(common.json());
+  before();
   cloth::SolvedScene solved;
   {
     std::optional<Progress> progress;  // one a stage: each has a speed of its own

@@ -1,6 +1,7 @@
 // Scenes with [solve]: their wrinkles are solved before a command draws, bakes, exports or verifies them.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
@@ -19,8 +20,11 @@ struct SolvedRun {
 class SolveArguments {
  public:
   explicit SolveArguments(CommandOptions& options) : cache_(options) {}
-  // Tells of frames that did not converge. Throws Error.
-  SolvedRun run(const config::SceneSettings& scene, const CommonArguments& common) const;
+  // Tells of frames that did not converge. Throws Error. before: what is called where there is something to
+  // solve, to find early what would be wrong after that long part.
+  SolvedRun run(
+      const config::SceneSettings& scene, const CommonArguments& common,
+      const std::function<void()>& before = [] {}) const;
 
  private:
   CacheArguments cache_;

@@ -106,7 +106,7 @@ void SolvedCache::keep(const Hash& question, std::span<const std::uint8_t> answe
   try {
     write_whole_file(file_of(question), bytes);
   } catch (const Error& error) {
-    log::info(error.what());
+    log::warn_once("solved cache", fmt::format("solved answers are not kept: {}", error.what()));
     return;
   }
   // Looking through the folder for each would make long clips slow.

@@ -49,6 +49,10 @@ struct BakeReport {
   double wall_s = 0;
 };
 
+// For a run that solves before it bakes: reads the model, and throws early what `bake_maps` would throw of
+// the request, the uv among it.
+void check(const BakeRequest& request);
+
 // The wrinkles of each frame in the uv of the wrinkling parts: heights along the posed mesh's normals (EXR in
 // metres, and a viewable PNG), and normals in its MikkTSpace basis. Throws Error(bad_input) where uv is
 // missing or reaches over more than most_tiles; islands that overlap are a warning.

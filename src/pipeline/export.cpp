@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/message_scope.h"
 #include "base/text.h"
 #include "config/frames.h"
 #include "io/mesh_file.h"
@@ -76,6 +77,14 @@ io::MeshFile mesh_of(const pipeline::LoadedScene& scene, const Subdivision& fine
 }
 
 }  // namespace
+
+void check(const ExportRequest& request) {
+  const log::Scope unheard(log::Sink{});  // the run itself tells
+  const pipeline::LoadedScene scene(request.scene, request.memory, 0);
+  const auto frames =
+      config::select_frames(scene.settings.model.frames, scene.animation.timeline().frame_count);
+  if (!request.on_mesh) check_output(request.output, frames);
+}
 
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame) {
   const double started = wall_seconds();

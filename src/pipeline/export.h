@@ -35,6 +35,10 @@ struct ExportReport {
   double wall_s = 0;
 };
 
+// For a run that solves before it writes: reads the model, and throws early what `export_geometry` would
+// throw of the request.
+void check(const ExportRequest& request);
+
 // The displaced surface of each frame: metres, y up. Meshes have normals, uv and the materials' names; a
 // cache has the vertex order of an OBJ of the same scene and levels.
 ExportReport export_geometry(const ExportRequest& request, const FrameCallback& on_frame);
