@@ -28,6 +28,7 @@
 #include "cloth/wrinkle_sequence.h"
 #include "config/drape_file.h"
 #include "config/frames.h"
+#include "config/options.h"
 #include "config/scene_file.h"
 #include "config/suggest.h"
 #include "io/sequence.h"
@@ -62,7 +63,7 @@ struct Arguments {
         "--wavelength", wavelength, "LENGTH",
         described("Of a model without --fabric: how long its waves are, in the median; default: three mean "
                   "edges of the rest shape"));
-    options.add("--rest", rest, "bind|frame:N|FILE", "Of a model: its rest shape, as for 'plisse render'");
+    options.add("--rest", rest, "bind|frame:N|uv|FILE", "Of a model: its rest shape, as for 'plisse render'");
     options.add("--clip", clip, "NAME|INDEX", "Of a model: the animation to play");
     options.add("--only", only, Values::all_given, "NAME", "Of a model: only these meshes or materials");
     options.add("--exclude", exclude, Values::all_given, "NAME",
@@ -371,38 +372,32 @@ int run_sequence(const Arguments& arguments, cloth::WrinkleRequest each) {
   return static_cast<int>(report.converged ? ExitCode::fine : ExitCode::check_failed);
 }
 
-// 0 counts where it is `allowed`; no mesh has edges of a micrometre.
-double length_option(const std::string& option, const std::string& text, bool zero_allowed) {
-  const auto value = parse_length(text);
-  if (!value || !((zero_allowed && *value == 0) || (*value >= 1e-6 && *value <= 1e6)))
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: '{}' is no length from 1e-6 m to 1e6 m, such as '24 cm'{}", option, text,
-                            zero_allowed ? ", nor 0" : ""));
-  return *value;
+// Of the scene's own keys, as 'plisse render' has them.
+config::GivenOptions scene_options_of(const Arguments& arguments) {
+  config::GivenOptions given;
+  for (const auto& [name, value] : {std::pair{"--rest", &arguments.rest},
+                                    {"--clip", &arguments.clip},
+                                    {"--cache", &arguments.cache},
+                                    {"--frames", &arguments.frames},
+                                    {"--follow", &arguments.follow},
+                                    {"--tension-limit", &arguments.tension_limit},
+                                    {"--wavelength", &arguments.wavelength},
+                                    {"--fabric", &arguments.fabric}})
+    if (!value->empty()) given.emplace_back(name, std::vector<std::string>{*value});
+  if (!arguments.only.empty()) given.emplace_back("--only", arguments.only);
+  if (!arguments.exclude.empty()) given.emplace_back("--exclude", arguments.exclude);
+  return given;
 }
 
 cloth::FollowRequest follow_request_of(const Arguments& arguments) {
   cloth::FollowRequest request;
   request.scene = config::open_scene(arguments.input);
-  config::SceneSettings& scene = request.scene;
-  if (!arguments.rest.empty()) scene.model.rest = arguments.rest;
-  if (!arguments.clip.empty()) scene.model.clip = arguments.clip;
-  if (!arguments.cache.empty()) scene.model.cache = arguments.cache;
-  if (!arguments.only.empty()) scene.wrinkles.only = arguments.only;
-  if (!arguments.exclude.empty()) scene.wrinkles.exclude = arguments.exclude;
-  if (!arguments.frames.empty()) scene.model.frames = arguments.frames;
-  if (!arguments.follow.empty()) scene.solve.follow = length_option("--follow", arguments.follow, true);
-  if (!arguments.tension_limit.empty())
-    scene.solve.tension_limit = number_in("--tension-limit", arguments.tension_limit, 0, 1e6);
-  if (!arguments.wavelength.empty())
-    scene.wrinkles.wavelength = length_option("--wavelength", arguments.wavelength, false);
+  config::apply_options(request.scene, scene_options_of(arguments));
   if (!arguments.fabric.empty()) {
-    fabric_option(arguments.fabric);  // says what is wrong with it
-    scene.solve.fabric = arguments.fabric;
     if (!arguments.wavelength.empty())
       throw Error(ExitCode::bad_input,
                   "--fabric and --wavelength: a fabric has waves of its own length; give one");
-    scene.wrinkles.wavelength = 0;
+    request.scene.wrinkles.wavelength = 0;
   }
   request.cache = arguments.solved.folder();
   return request;
@@ -461,7 +456,13 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
   const std::vector<int> picked =
       config::select_frames(follow.scene.model.frames, static_cast<int>(followed.frames.size()));
   request.frames = fmt::format("{}-{}", picked.front(), picked.back());
+  if (!first.look->lost.empty())
+    log::warn(fmt::format("files of base surfaces do not keep the model's {}; 'plisse render --solve' does",
+                          fmt::join(first.look->lost, " and ")));
   ordered_json outputs = ordered_json::array();
+  const std::vector<std::string> pictures = cloth::write_pictures(*first.look, folder);
+  for (const std::string& picture : pictures)
+    outputs.push_back({{"path", (folder / picture).string()}, {"kind", "picture"}});
   bool converged = true;
   for (int number = picked.front(); number <= picked.back(); ++number) {
     const auto n = static_cast<std::size_t>(number - 1);
@@ -471,9 +472,9 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
     const auto path =
         std::filesystem::path(config::numbered_path((folder / "base_####.ply").string(), frame.frame));
     request.each.scene.surface.positions = followed.bases[n];
-    cloth::write_base(path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame),
-                      request.each.scene,
-                      frame.converged ? "" : "no step lowers its energy any more, or too many were needed");
+    cloth::write_base(
+        path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame), request.each.scene,
+        frame.converged ? "" : "no step lowers its energy any more, or too many were needed", pictures);
     outputs.push_back({{"path", path.string()}, {"kind", "base"}, {"frame", frame.frame}});
   }
   if (followed.strained != followed.bases)

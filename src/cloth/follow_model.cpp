@@ -15,7 +15,9 @@
 #include "base/log.h"
 #include "cloth/archive.h"
 #include "cloth/fabric_material.h"
+#include "cloth/uv_rest.h"
 #include "config/fabric.h"
+#include "config/rest_choice.h"
 #include "scene/animation.h"
 #include "scene/load_model.h"
 #include "scene/wrinkles.h"
@@ -33,7 +35,7 @@ using shell::Positions;
 struct Piece {
   std::vector<std::uint32_t> vertices;
   double edge = 0;  // mean rest edge, m
-  Positions rest;   // where its vertices are at rest, m
+  Positions rest;   // where its vertices are at rest, m; empty: in flat panels
   shell::FollowSettings settings;
   std::optional<shell::Follower> follower;
 
@@ -45,9 +47,27 @@ struct Piece {
   }
 };
 
-std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<shell::RestFace>& rest,
-                             const Positions& rest_positions, const config::SolveSettings& solve,
-                             double poisson, double edges, const std::vector<bool>& held, double& largest) {
+// How long each edge is at rest, m; of panels' seams by its first face.
+std::vector<double> rest_lengths(const wrinkle::BaseSurface& surface) {
+  std::vector<double> lengths;
+  for (const shell::Edge& edge : surface.topology.edges) {
+    const std::uint32_t f = edge.face[0];
+    Eigen::Matrix<double, 2, 3> corner;
+    corner << Eigen::Vector2d::Zero(), surface.rest[f].edges;
+    const Face& face = surface.topology.faces[f];
+    const auto place = [&](std::uint32_t v) {
+      return corner.col(std::find(face.begin(), face.end(), v) - face.begin()).eval();
+    };
+    lengths.push_back((place(edge.vertex[0]) - place(edge.vertex[1])).norm());
+  }
+  return lengths;
+}
+
+// rest_positions: empty where the rest shape is flat panels.
+std::vector<Piece> pieces_of(const wrinkle::BaseSurface& surface, const Positions& rest_positions,
+                             const config::SolveSettings& solve, double poisson, double edges,
+                             const std::vector<bool>& held, double& largest) {
+  const shell::Topology& topology = surface.topology;
   std::vector<Piece> pieces(topology.component_count);
   std::vector<std::uint32_t> local(topology.vertex_count, 0);
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
@@ -62,19 +82,20 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
     const std::uint32_t piece = topology.component[face[0]];
     for (auto& v : face) v = local[v];
     faces[piece].push_back(face);
-    rests[piece].push_back(rest[f]);
+    rests[piece].push_back(surface.rest[f]);
   }
   std::vector<std::size_t> count(pieces.size(), 0);
-  for (const shell::Edge& edge : topology.edges) {
-    const std::uint32_t piece = topology.component[edge.vertex[0]];
-    pieces[piece].edge += (rest_positions.col(edge.vertex[0]) - rest_positions.col(edge.vertex[1])).norm();
+  const std::vector<double> lengths = rest_lengths(surface);
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    const std::uint32_t piece = topology.component[topology.edges[e].vertex[0]];
+    pieces[piece].edge += lengths[e];
     ++count[piece];
   }
   std::size_t most = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     Piece& piece = pieces[p];
     piece.edge /= static_cast<double>(std::max<std::size_t>(count[p], 1));
-    piece.rest = piece.part_of(rest_positions);
+    if (rest_positions.size() > 0) piece.rest = piece.part_of(rest_positions);
     shell::FollowSettings& settings = piece.settings;
     settings.wavelength = solve.follow >= 0 ? solve.follow : edges * piece.edge;
     settings.tension_limit = solve.tension_limit;
@@ -95,6 +116,7 @@ std::vector<Piece> pieces_of(const shell::Topology& topology, const std::vector<
 // The factor by which the pose is the rest shape scaled as a whole, moved and turned, to the digits of single
 // precision that models have; 0: it is not.
 double similar(const Positions& rest, const Positions& pose) {
+  if (rest.size() == 0) return 0;  // panels lie flat, and are sewn
   const Eigen::Matrix4d moved = Eigen::umeyama(rest, pose, true);
   if (!moved.allFinite()) return 0;
   const Positions there = (moved.topLeftCorner<3, 3>() * rest).colwise() + moved.topRightCorner<3, 1>();
@@ -210,13 +232,11 @@ Positions unscaled(const std::vector<Piece>& pieces, Positions base) {
   return base;
 }
 
-double length_kept(const shell::Topology& topology, const Positions& rest, const Positions& base) {
+double length_kept(const shell::Topology& topology, const std::vector<double>& rest, const Positions& base) {
   std::vector<double> kept;
-  for (const shell::Edge& edge : topology.edges) {
-    const auto length = [&](const Positions& x) {
-      return (x.col(edge.vertex[0]) - x.col(edge.vertex[1])).norm();
-    };
-    kept.push_back(length(base) / length(rest));
+  for (std::size_t e = 0; e < rest.size(); ++e) {
+    const auto& [a, b] = topology.edges[e].vertex;
+    kept.push_back((base.col(a) - base.col(b)).norm() / rest[e]);
   }
   return median(std::move(kept));
 }
@@ -227,6 +247,8 @@ Hash shells_hash(const wrinkle::BaseSurface& surface, const Positions& rest_posi
   Hash hash = SolvedCache::question("bases");
   Hasher hasher(hash);
   hasher(surface.topology.faces, rest_positions, held);
+  if (rest_positions.size() == 0)
+    for (const shell::RestFace& face : surface.rest) hasher(face.edges);
   for (const Piece& piece : pieces) hasher(piece.settings.wavelength);
   hasher(pieces.front().settings.tension_limit, pieces.front().settings.poisson);
   return hash;
@@ -280,10 +302,19 @@ FollowReport follow_model(const FollowRequest& request) {
   first.chords = false;
   first.tension_limit = solve.tension_limit;
   first.surface.topology = shell::build_topology(cloth.faces, cloth.welded.size());
-  const Positions rest_positions = cloth.places(surface.rest);
-  first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
+  Positions rest_positions;
+  if (const auto uv = config::uv_rest_choice(chosen.rest)) {
+    UvRest rest = rest_from_uv(surface, cloth, uv->metres, report.model->path.string());
+    if (!uv->metres)
+      log::notice(fmt::format("a unit of uv is {:.4g} m, by the area of the model at rest", rest.metres));
+    first.surface.rest = std::move(rest.faces);
+  } else {
+    rest_positions = cloth.places(surface.rest);
+    first.surface.rest = shell::rest_faces(rest_positions, cloth.faces);
+  }
   first.held = cloth.shared;  // parts that are not selected stay as they are
   report.shells = first.surface.topology.component_count;
+  first.look = std::make_shared<ClothLook>(look_of(*report.model, surface, cloth));
 
   // Poses one after the other, since an animation remembers what was last finite; bases on all cores.
   const int last = animation.timeline().frame_count;
@@ -297,9 +328,9 @@ FollowReport follow_model(const FollowRequest& request) {
     report.frames.push_back({.frame = n});
   }
   const shell::Material material = fabric.value_or(shell::Material{.young = 1e5, .poisson = 0.3});
-  const std::vector<Piece> pieces =
-      pieces_of(first.surface.topology, first.surface.rest, rest_positions, solve, material.poisson,
-                simulated ? 8 : 4, first.held, report.follow);
+  const std::vector<Piece> pieces = pieces_of(first.surface, rest_positions, solve, material.poisson,
+                                              simulated ? 8 : 4, first.held, report.follow);
+  const std::vector<double> lengths = rest_lengths(first.surface);
   const SolvedCache cache(request.cache);
   const Hash shells = shells_hash(first.surface, rest_positions, first.held, pieces);
   report.bases.resize(count);
@@ -316,7 +347,7 @@ FollowReport follow_model(const FollowRequest& request) {
     if (interrupted()) return;
     report.bases[n] = put_together(pieces, followed, std::move(poses[n]), frame);
     report.strained[n] = unscaled(pieces, report.bases[n]);
-    frame.length_kept = length_kept(first.surface.topology, rest_positions, report.strained[n]);
+    frame.length_kept = length_kept(first.surface.topology, lengths, report.strained[n]);
     frame.seconds = wall_seconds() - began;
     const std::lock_guard lock(telling);
     report.reuse.answers += reuse.answers;

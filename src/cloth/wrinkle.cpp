@@ -65,7 +65,8 @@ std::vector<wrinkle::FaceForms> forms_of(const WrinkleRequest& request) {
 }
 
 WrinkleScene read_base(const fs::path& file) {
-  const io::Ply ply = io::read_ply(file, {"x", "y", "z", "held", "vertex_indices", "vertex_index", "rest"});
+  const io::Ply ply =
+      io::read_ply(file, {"x", "y", "z", "held", "vertex_indices", "vertex_index", "rest", "texcoord"});
   for (const std::string& comment : ply.comments)
     if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
   WrinkleScene scene;
@@ -85,6 +86,16 @@ WrinkleScene read_base(const fs::path& file) {
     const Eigen::Matrix<double, 2, 3> rest = Eigen::Map<const Eigen::Matrix<double, 2, 3>>(&flat[6 * f]);
     scene.surface.rest.push_back(shell::rest_face(rest, f));
   }
+  if (ply.element("face").find("texcoord")) {
+    const std::vector<double>& uv = ply.lists("face", "texcoord", 6);
+    auto look = std::make_shared<ClothLook>();
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      auto& corners = look->uv.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c)
+        corners[c] = Eigen::Vector2d(uv[6 * f + 2 * c], uv[6 * f + 2 * c + 1]);
+    }
+    scene.look = std::move(look);
+  }
   const std::size_t count = ply.element("vertex").count;
   scene.surface.topology = shell::build_topology(std::move(faces), count);
   scene.held.assign(count, false);
@@ -98,7 +109,7 @@ WrinkleScene read_base(const fs::path& file) {
 WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   shell::Shell shell = shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
-  WrinkleScene result{scene.name, {}, scene.material, {}, scene.chords};
+  WrinkleScene result{scene.name, {}, scene.material, {}, scene.chords, 0, nullptr};
   result.surface.positions = scene.start;
   if (!scene.solved) {
     const SolvedCache answers(cache);

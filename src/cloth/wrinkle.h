@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cloth/cloth_look.h"
 #include "cloth/drape_scene.h"
 #include "wrinkle/field.h"
 #include "wrinkle/wrinkle_free.h"
@@ -22,6 +24,7 @@ struct WrinkleScene {
   // TFW authors' set-ups, whose own program takes their strain as it is.
   bool chords = true;
   double tension_limit = 0;  // of λ₁: what is beyond is no tension (wrinkle/facets.h); 0: none
+  std::shared_ptr<const ClothLook> look;  // of the model that it was made of; null: nothing is known
 };
 
 // A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).

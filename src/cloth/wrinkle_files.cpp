@@ -78,7 +78,8 @@ WrinkleMesh mesh_of(const WrinkleRequest& request, const std::vector<wrinkle::Fa
   const WrinkleScene& scene = request.scene;
   Eigen::Matrix3Xd lean;
   if (request.mesh_v1) lean = wrinkle::leaning(scene.surface, forms, scene.material.poisson, field);
-  return wrinkle_mesh(scene.name, scene.surface, field, request.levels, request.v2, std::move(lean));
+  return wrinkle_mesh(scene.name, scene.surface, field, request.levels, request.v2,
+                      scene.look ? *scene.look : ClothLook{}, std::move(lean));
 }
 
 }  // namespace plisse::cloth

@@ -30,13 +30,14 @@ int checked_levels(std::size_t triangles, int levels) {
 
 WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& surface,
                          const wrinkle::CoarseField& field, std::optional<int> levels, bool with_v2,
-                         Eigen::Matrix3Xd lean) {
+                         const ClothLook& look, Eigen::Matrix3Xd lean) {
   const std::size_t faces = surface.topology.faces.size();
   const double waves = wrinkle::largest_step(surface, field) / (2 * std::numbers::pi);
   WrinkleMesh result;
   result.levels = levels ? checked_levels(faces, *levels) : levels_for(waves, faces, most_by_itself);
   wrinkle::FineField fine = wrinkle::upsample(
-      surface, field, result.levels, {std::move(lean), shell::unrolled(surface.topology, surface.rest)});
+      surface, field, result.levels,
+      {std::move(lean), look.uv.empty() ? shell::unrolled(surface.topology, surface.rest) : look.uv});
   const shell::Positions moved = wrinkle::displaced(fine, with_v2);
   io::MeshFile& file = result.file;
   file.positions = points_to_glm(moved);
@@ -47,7 +48,7 @@ WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& su
   file.vertices.resize(count);
   std::vector<std::uint32_t> next_copy(count, none);
   std::vector<bool> given(count, false);
-  for (std::size_t f = 0; f < fine.faces.size(); ++f) {
+  const auto add = [&](std::size_t f) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = fine.faces[f][c];
       const glm::vec2 uv(fine.uv[f][c].x(), fine.uv[f][c].y());
@@ -66,12 +67,21 @@ WrinkleMesh wrinkle_mesh(const std::string& name, const wrinkle::BaseSurface& su
       }
       file.triangles.push_back(at);
     }
+  };
+  std::vector<ClothLook::Part> parts = look.parts;
+  if (parts.empty()) parts.push_back({name, "cloth"});
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    const auto first = static_cast<std::uint32_t>(file.triangles.size() / 3);
+    for (std::size_t f = 0; f < fine.faces.size(); ++f)
+      if (look.parts.empty() || look.part[fine.base_face[f]] == p) add(f);
+    const auto triangles = static_cast<std::uint32_t>(file.triangles.size() / 3) - first;
+    if (triangles > 0)
+      file.parts.push_back(
+          {parts[p].mesh, parts[p].material, parts[p].base_colour, true, true, false, first, triangles});
   }
   for (std::uint32_t v = 0; v < count; ++v) {
     if (!given[v]) file.vertices[v] = {v, v, glm::vec2(0), glm::vec4(1)};  // of no face
   }
-  file.parts.push_back(
-      {name, "cloth", glm::vec4(1), true, true, false, 0, static_cast<std::uint32_t>(fine.faces.size())});
   return result;
 }
 

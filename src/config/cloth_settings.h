@@ -28,7 +28,7 @@ struct ModelSettings {
   bool loop = false;                // replays one period first
   double metres_per_unit = 0;       // 0: the file's own
   std::string up;                   // x | y | z; empty: the file's own
-  std::string rest = "auto";        // auto | bind | frame:N | FILE
+  std::string rest = "auto";        // auto | bind | frame:N | uv | uv:LENGTH | FILE
   std::filesystem::path cache;      // an MDD or PC2 file over the model's mesh; empty: none
 };
 
@@ -59,8 +59,9 @@ void model_keys(Row& row) {
   row("up", &S::up, word({"x", "y", "z"}, "the file's own"), "The axis that points up.", {"--up", "x|y|z"});
   row("rest", &S::rest, rest_pose(),
       "The pose without wrinkles: a skin's bind pose, a frame, or a model with the same vertices; auto takes "
-      "the bind pose, else frame 1.",
-      {"--rest", "bind|frame:N|FILE"});
+      "the bind pose, else frame 1. Of solved wrinkles also uv: flat panels, cut where the texture "
+      "coordinates are; without a length they get the size of the model at rest.",
+      {"--rest", "bind|frame:N|uv|FILE"});
   row("cache", &S::cache, file_path({".mdd", ".pc2"}),
       "A point cache that moves the model's vertices; its positions are in the model's own unit and axes.",
       {"--cache", "FILE"});

@@ -18,6 +18,7 @@
 #include "config/fabric.h"
 #include "config/frames.h"
 #include "config/given.h"
+#include "config/rest_choice.h"
 #include "config/suggest.h"
 
 namespace plisse::config {
@@ -449,9 +450,16 @@ Kind<fs::path> file_or_pattern() {
 
 Kind<std::string> rest_pose() {
   Kind<std::string> kind = word_or_file({"auto", "bind", "frame:1"});
-  kind.allowed = "auto, bind, frame:N with N from 1, or an existing file";
+  kind.allowed =
+      "auto, bind, frame:N with N from 1, uv or uv:LENGTH with the length of a unit of uv, or an existing "
+      "file";
   kind.read = [other = kind.read](const Given& given) {
     const std::string text = text_of(given);
+    try {
+      if (uv_rest_choice(text)) return text;
+    } catch (const Error& error) {
+      throw Problem{error.what()};
+    }
     constexpr std::string_view frame = "frame:";
     if (!text.starts_with(frame)) return other(given);
     int number = 0;

@@ -120,10 +120,10 @@ class CornerReader {
   using Key = std::tuple<std::uint32_t, float, float, float, float, float, float>;
 
   std::size_t part_of(std::uint32_t face) {
-    // Without a number, or with one that no picture has, the first.
+    // Without a number, or with one that no picture has, the first; −1: none.
     const double number = textures_ ? textures_->values[face] : 0;
     const bool known = number >= 0 && number < static_cast<double>(model_.materials.size());
-    const int material = model_.materials.empty() ? -1 : known ? static_cast<int>(number) : 0;
+    const int material = model_.materials.empty() || number == -1 ? -1 : known ? static_cast<int>(number) : 0;
     const auto [entry, fresh] = parts_.try_emplace(material, model_.meshes.size());
     if (fresh) {
       Mesh& mesh = model_.meshes.emplace_back();

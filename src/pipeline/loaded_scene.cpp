@@ -11,6 +11,7 @@
 #include "config/frames.h"
 #include "config/options.h"
 #include "config/paint_file.h"
+#include "config/rest_choice.h"
 #include "io/import_place.h"
 #include "io/wrinkle_field.h"
 #include "paint/bias_file.h"
@@ -64,6 +65,12 @@ LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemo
       profile(passes::with_finer_waves(passes::make_profile(given.wrinkles.profile), given.wrinkles.fine,
                                        given.wrinkles.fine_share)),
       smooth_levels_(smooth) {
+  if (config::uv_rest_choice(settings.model.rest) &&
+      !(settings.solve.on && settings.solve.method == config::SolveMethod::direct))
+    throw Error(ExitCode::bad_input,
+                fmt::format("rest '{}': flat panels are the rest shape of solved wrinkles only: add --solve, "
+                            "or take another",
+                            settings.model.rest));
   scene::select_parts(animation.surface(), settings.wrinkles);
   if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = scene::default_wavelength(surface());
   rest = rest_frames(surface());

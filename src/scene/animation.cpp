@@ -489,11 +489,13 @@ Animation::Animation(const io::Model& model, const AnimationChoice& choice) {
 
   Surface& surface = data.surface;
   constexpr std::string_view frame_prefix = "frame:";
-  if (choice.rest == "auto" || choice.rest == "bind") {
+  // Flat panels have no place in space (cloth/uv_rest.h): there it is the pose of "auto".
+  const bool flat = choice.rest == "uv" || choice.rest.starts_with("uv:");
+  if (choice.rest == "auto" || choice.rest == "bind" || flat) {
     Pose rest;
     rest.palette.assign(data.last.palette.size(), glm::dmat4{1});
     for (const MorphSource& source : data.targets)
-      rest.morph_weights.push_back(choice.rest == "auto"
+      rest.morph_weights.push_back(choice.rest != "bind"
                                        ? source.rest_weight
                                        : data.rig.default_morph_weights(source.node)[source.target]);
     if (std::any_of(rest.morph_weights.begin(), rest.morph_weights.end(), [](double w) { return w != 0; }))

@@ -32,7 +32,7 @@ struct AnimationChoice {
   // Name or index, several with commas between, or "all"; empty: the first clip that has a length.
   std::string clip = {};
   double frames_per_second = 0;  // 0: 24, or a vertex cache's own rate
-  std::string rest = "auto";     // auto | bind | frame:N | path of a model with the same vertices
+  std::string rest = "auto";     // auto | bind | frame:N | uv… | path of a model with the same vertices
   bool loop = false;
   Limits limits = {};  // of a file that `rest` names
 };
