@@ -100,6 +100,9 @@ std::vector<Piece> pieces_of(const wrinkle::BaseSurface& surface, const Position
     settings.wavelength = solve.follow >= 0 ? solve.follow : edges * piece.edge;
     settings.tension_limit = solve.tension_limit;
     settings.poisson = poisson;
+    // Without a curvature of its own a tube of twelve panels keeps 1 − .165^passes of its radius: what
+    // five leave (1e-4) seeds no waves, what two leave (3 %) does.
+    if (rest_positions.size() == 0) settings.passes = 5;
     if (faces[p].size() > most) {
       most = faces[p].size();
       largest = settings.wavelength;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "base/error.h"
@@ -49,6 +51,78 @@ std::vector<OnCurve> boundary_curves(const Topology& topology, const std::vector
   for (std::uint32_t v = 0; v < topology.vertex_count; ++v)
     if (ends[v].size() == 2)
       result.push_back({v, ends[v][0].other, ends[v][1].other, ends[v][0].length, ends[v][1].length});
+  return result;
+}
+
+// Second derivatives at the inner vertices: −∫ ∇φ_i ⊗ ∇u over the ring of vertex i, φ_i its hat function, is
+// its cell's area times the Hessian of u. Three rows a vertex: uu, vv and √2 uv, so that their squares are
+// |∇²u|². With the Laplacian alone a free end could be curved one way as much as the other, at no cost: tubes
+// would flare (Stein, Grinspun, Wardetzky and Jacobson, Natural Boundary Conditions for Smoothing in Geometry
+// Processing, ACM TOG 2018).
+struct HessianRow {
+  std::uint32_t vertex;
+  std::array<std::vector<std::pair<std::uint32_t, double>>, 3> integral;  // of vertices, m²·1/m²
+};
+std::vector<HessianRow> hessians(const Topology& topology, const std::vector<RestFace>& rest) {
+  struct Corner {
+    std::uint32_t face, corner;
+  };
+  std::vector<std::vector<Corner>> ring(topology.vertex_count);
+  std::vector<bool> inner(topology.vertex_count, true);
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f)
+    for (std::uint32_t c = 0; c < 3; ++c) ring[topology.faces[f][c]].push_back({f, c});
+  for (const Edge& edge : topology.edges)
+    if (edge.boundary())
+      for (const std::uint32_t v : edge.vertex) inner[v] = false;
+  std::vector<HessianRow> result;
+  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
+    if (!inner[v] || ring[v].empty()) continue;
+    // The faces in order round the vertex, with the directions of their first sides and their angles there.
+    struct Sector {
+      std::uint32_t face;
+      double first, angle;
+    };
+    std::vector<Sector> sectors;
+    Corner at = ring[v].front();
+    double whole = 0;
+    do {
+      Eigen::Matrix<double, 2, 3> corner;
+      corner << Eigen::Vector2d::Zero(), rest[at.face].edges;
+      const Eigen::Vector2d a = corner.col((at.corner + 1) % 3) - corner.col(at.corner),
+                            b = corner.col((at.corner + 2) % 3) - corner.col(at.corner);
+      const double first = std::atan2(a.y(), a.x()),
+                   angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+      sectors.push_back({at.face, first, angle});
+      whole += angle;
+      const Edge& edge = topology.edges[topology.face_edges[at.face][(at.corner + 1) % 3]];
+      const std::uint32_t next = edge.face[0] == at.face ? edge.face[1] : edge.face[0];
+      const Face& face = topology.faces[next];
+      at = {next, static_cast<std::uint32_t>(std::find(face.begin(), face.end(), v) - face.begin())};
+    } while (at.face != ring[v].front().face && sectors.size() < ring[v].size());
+    // The ring laid flat, its angles scaled to a whole turn.
+    const double scale = 2 * std::numbers::pi / whole;
+    std::map<std::uint32_t, Eigen::Matrix2d> of;
+    double turned = 0;
+    for (const Sector& sector : sectors) {
+      const double by = turned * scale + sector.angle * (scale - 1) / 2 - sector.first;
+      turned += sector.angle;
+      const Eigen::Rotation2Dd turn(by);
+      const RestFace& face = rest[sector.face];
+      const Eigen::Matrix<double, 2, 3> gradients = turn.toRotationMatrix() * face.gradients;
+      const Face& ids = topology.faces[sector.face];
+      const auto own = std::find(ids.begin(), ids.end(), v) - ids.begin();
+      for (std::size_t k = 0; k < 3; ++k) {
+        auto& sum = of.try_emplace(ids[k], Eigen::Matrix2d::Zero()).first->second;
+        sum -= face.area * gradients.col(own) * gradients.col(static_cast<Index>(k)).transpose();
+      }
+    }
+    HessianRow& row = result.emplace_back(HessianRow{v, {}});
+    for (const auto& [u, h] : of) {
+      row.integral[0].emplace_back(u, h(0, 0));
+      row.integral[1].emplace_back(u, h(1, 1));
+      row.integral[2].emplace_back(u, (h(0, 1) + h(1, 0)) / std::numbers::sqrt2);
+    }
+  }
   return result;
 }
 
@@ -100,17 +174,16 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
                cut = std::pow(settings.wavelength / (2 * std::numbers::pi), 4);
   tether_ = material_.young * material_.thickness / (reach * reach);
 
-  const CellLaplacian laplacian = cell_laplacian(topology_, rest_);
+  const VectorXd cells = cell_laplacian(topology_, rest_).areas;
   std::vector<Triplet> entries;
   std::vector<double> weights;
-  for (Index column = 0; column < count; ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(laplacian.integral, column); it; ++it)
-      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
-  for (std::uint32_t v = 0; v < topology_.vertex_count; ++v) {
-    const double area = laplacian.areas[v];
-    weights.push_back(area > 0 ? tether_ * cut / area : 0);
-    row_vertex_.push_back(v);
-  }
+  for (const HessianRow& hessian : hessians(topology_, rest_))
+    for (const auto& integral : hessian.integral) {
+      for (const auto& [v, value] : integral)
+        entries.emplace_back(static_cast<int>(weights.size()), static_cast<int>(v), value);
+      weights.push_back(tether_ * cut / cells[hessian.vertex]);
+      row_vertex_.push_back(hessian.vertex);
+    }
   // A corner of the rest shape is no part of a smooth curve; and where only its triangles are known, not
   // where it is in space, curves that turn within it are left out as well.
   const double straight = (rest_positions.size() > 0 ? 30 : 5) * std::numbers::pi / 180;

@@ -3,13 +3,14 @@
 // field.
 //
 // For each frame, X its positions, the base has the least
-//   E(x) = E_TF(x) + ½ b Σ m_i |(Δx)_i − R_i (Δx̄)_i|² + ½ c Σ m_i |x_i − X_i|²:
+//   E(x) = E_TF(x) + ½ b Σ m_i |(∇²x)_i − R_i (∇²x̄)_i|² + ½ c Σ m_i |x_i − X_i|²:
 // tension field theory (Chen et al. 2021, appendix B), against which shortening costs nothing; bending from
-// the rest shape's own curvature vectors Δx̄, turned by the given pose's rotations R_i; a tether to the pose.
-// With b = c(Λ/2π)⁴ a ripple of wavelength λ in X keeps 1/(1 + (Λ/λ)⁴) of its height; with c = Yh/ℓ² tension
-// wins over the tether on what is shorter than ℓ. Free boundaries have the same for themselves as curves, or
-// hems would keep the simulation's sawtooth. E is convex, so that a base depends on its own frame alone; Y
-// and h have no part in it, since they multiply all of E.
+// the rest shape's own curvature vectors ∇²x̄ (all second derivatives, over the rest shape; of inner
+// vertices), turned by the given pose's rotations R_i; a tether to the pose. With b = c(Λ/2π)⁴ a ripple of
+// wavelength λ in X keeps 1/(1 + (Λ/λ)⁴) of its height; with c = Yh/ℓ² tension wins over the tether on what
+// is shorter than ℓ. Free boundaries have the same for themselves as curves, or hems would keep the
+// simulation's sawtooth. E is convex, so that a base depends on its own frame alone; Y and h have no part in
+// it, since they multiply all of E.
 //
 // A constant matrix serves for all frames: with t = Λk/2π a change of wave number k has the stiffness 1 + t⁴
 // in bending and tether, and of the membrane at most (ℓk)²/(1 − ν²) = 5.6 t², which tension field theory has
@@ -77,8 +78,9 @@ class Follower {
   Material material_;       // of unit thickness and stiffness, with Poisson's ratio
   double tether_ = 0;       // c, N/m³
   Eigen::VectorXd areas_;   // m_i, m²
-  // Curvature operators, a row each: of the cell of a vertex (L), and of the boundary curve at one; the
-  // weights of their squares, N/m; the vertices that they are of; their values for the rest shape.
+  // Curvature operators, a row each: three of the cell of an inner vertex, and one of the boundary curve at a
+  // vertex; the weights of their squares, N/m; the vertices that they are of; their values for the rest
+  // shape.
   Eigen::SparseMatrix<double> curvature_;
   Eigen::VectorXd weights_;
   std::vector<std::uint32_t> row_vertex_;
