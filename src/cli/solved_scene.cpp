@@ -15,19 +15,24 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json to_json(const cloth::SolvedFrame& frame) {
-  return {{"frame", frame.followed.frame},
-          {"moved_rms_m", frame.followed.moved_rms},
-          {"moved_most_m", frame.followed.moved_most},
-          {"length_kept", frame.followed.length_kept},
-          {"compression", frame.taken.compression},
-          {"untaken", frame.taken.untaken},
-          {"waves", frame.waves},
-          {"wavelength_m", frame.taken.wavelength},
-          {"max_amplitude_m", frame.max_amplitude},
-          {"converged", frame.converged},
-          {"reason", frame.reason},
-          {"follow_s", frame.followed.seconds},
-          {"solve_s", frame.solve_s}};
+  ordered_json json = {{"frame", frame.followed.frame},
+                       {"moved_rms_m", frame.followed.moved_rms},
+                       {"moved_most_m", frame.followed.moved_most},
+                       {"length_kept", frame.followed.length_kept},
+                       {"compression", frame.taken.compression},
+                       {"untaken", frame.taken.untaken},
+                       {"waves", frame.waves},
+                       {"wavelength_m", frame.taken.wavelength},
+                       {"max_amplitude_m", frame.max_amplitude},
+                       {"converged", frame.converged},
+                       {"reason", frame.reason},
+                       {"follow_s", frame.followed.seconds},
+                       {"solve_s", frame.solve_s}};
+  if (frame.followed.nearest_body > 0) {
+    json["nearest_body_m"] = frame.followed.nearest_body;
+    json["brought_out"] = frame.followed.brought_out;
+  }
+  return json;
 }
 
 }  // namespace

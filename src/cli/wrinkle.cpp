@@ -63,6 +63,9 @@ struct Arguments {
         "--wavelength", wavelength, "LENGTH",
         described("Of a model without --fabric: how long its waves are, in the median; default: three mean "
                   "edges of the rest shape"));
+    options.add("--body", bodies, Values::all_given, "MESH|MATERIAL|FILE",
+                described("Of a model: what its cloth stays outside of, base surfaces and waves: meshes or "
+                          "materials of it, or files of models that move with it"));
     options.add("--rest", rest, "bind|frame:N|uv|FILE", "Of a model: its rest shape, as for 'plisse render'");
     options.add("--clip", clip, "NAME|INDEX", "Of a model: the animation to play");
     options.add("--only", only, Values::all_given, "NAME", "Of a model: only these meshes or materials");
@@ -137,7 +140,7 @@ struct Arguments {
                                     levels, rule = "paper", curvature = "2", factor = "1", frequency = "1",
                                     iterations = "500", cost, follow, tension_limit, fabric, wavelength, rest,
                                     clip;
-  std::vector<std::string> without, evaluate, only, exclude;
+  std::vector<std::string> without, evaluate, only, exclude, bodies;
   bool free_held = false, mesh_v1 = false, all_starts = false, crest_compression = false, local_law = false;
 };
 
@@ -386,6 +389,7 @@ config::GivenOptions scene_options_of(const Arguments& arguments) {
     if (!value->empty()) given.emplace_back(name, std::vector<std::string>{*value});
   if (!arguments.only.empty()) given.emplace_back("--only", arguments.only);
   if (!arguments.exclude.empty()) given.emplace_back("--exclude", arguments.exclude);
+  if (!arguments.bodies.empty()) given.emplace_back("--body", arguments.bodies);
   return given;
 }
 
@@ -472,6 +476,7 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
     const auto path =
         std::filesystem::path(config::numbered_path((folder / "base_####.ply").string(), frame.frame));
     request.each.scene.surface.positions = followed.bases[n];
+    if (!followed.room.empty()) request.each.scene.room = followed.room[n];
     cloth::write_base(
         path, fmt::format("plisse wrinkle {} frame {}", first.name, frame.frame), request.each.scene,
         frame.converged ? "" : "no step lowers its energy any more, or too many were needed", pictures);
@@ -482,6 +487,7 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
         "shells that are scaled as a whole are strained in files of base surfaces; 'plisse render --solve' "
         "leaves that out");
   request.poses = std::move(followed.bases);
+  request.room = std::move(followed.room);
   const cloth::WrinkleSequenceReport report = solve_sequence(arguments, request);
   if (report.interrupted) return 128 + signal_number();
   std::size_t others = 0;
@@ -517,6 +523,10 @@ int run_model(const Arguments& arguments, cloth::WrinkleRequest each) {
     entry["length_kept"] = frame.length_kept;
     entry["follow_iterations"] = frame.iterations;
     entry["follow_converged"] = frame.converged;
+    if (frame.nearest_body > 0) {
+      entry["nearest_body_m"] = frame.nearest_body;
+      entry["brought_out"] = frame.brought_out;
+    }
     entry["follow_s"] = frame.seconds;
   }
   write_report(json, arguments.common.json());
@@ -601,7 +611,8 @@ int run_wrinkle(Arguments& arguments) {
                          {"--rest", !arguments.rest.empty()},
                          {"--clip", !arguments.clip.empty()},
                          {"--only", !arguments.only.empty()},
-                         {"--exclude", !arguments.exclude.empty()}},
+                         {"--exclude", !arguments.exclude.empty()},
+                         {"--body", !arguments.bodies.empty()}},
                         "on a base surface or a drape scene: they are for models");
   if (is_sequence(arguments)) return run_sequence(arguments, std::move(request));
   if (!arguments.frames.empty())

@@ -63,6 +63,11 @@ void write_base(const std::filesystem::path& path, const std::string& title, con
   vertices.add_vectors("", PlyProperty::Type::float64, points_to_glm(base.surface.positions));
   PlyProperty& holds = vertices.properties.emplace_back(PlyProperty{"held", PlyProperty::Type::uint8});
   for (const bool is_held : base.held) holds.values.push_back(is_held ? 1 : 0);
+  if (!base.room.empty()) {
+    constexpr double endless = 1e6;  // m: files have finite numbers
+    PlyProperty& room = vertices.properties.emplace_back(PlyProperty{"room", PlyProperty::Type::float64});
+    for (const double most : base.room) room.values.push_back(std::min(most, endless));
+  }
   std::vector<double> corners, flat;
   for (const shell::Face& face : faces) corners.insert(corners.end(), face.begin(), face.end());
   for (const shell::RestFace& face : base.surface.rest)

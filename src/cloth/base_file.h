@@ -9,7 +9,7 @@
 
 namespace plisse::cloth {
 
-// A PLY with rest triangles, material and what is held, uv of corners (the look's, or else those of the
+// A PLY with rest triangles, material, what is held, room, uv of corners (the look's, or else those of the
 // unrolled rest shape) and colours of faces; `stopped`: why a
 // solver stopped before it had converged; empty: it converged. pictures: names of the look's, beside the
 // file, as write_pictures gives them. Throws Error(no_output).

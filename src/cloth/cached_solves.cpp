@@ -76,8 +76,8 @@ void members(auto& a, Is<shell::Followed> auto& value) {
 // --- what a field depends on, and what it is
 
 void members(auto& a, Is<wrinkle::FaceForms> auto& value) {
-  auto& [rest, strain, second_form, noise] = value;
-  a(rest, strain, second_form, noise);
+  auto& [rest, strain, second_form, noise, room] = value;
+  a(rest, strain, second_form, noise, room);
 }
 void members(auto& a, Is<wrinkle::Model> auto& value) {
   auto& [material, v1, v2, curvature_factor, crest_compression, relaxed_integrability] = value;

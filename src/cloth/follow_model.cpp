@@ -6,20 +6,25 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <memory>
 #include <mutex>
 #include <numbers>
 
 #include "base/clock.h"
+#include "base/eigen_glm.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "cloth/archive.h"
 #include "cloth/fabric_material.h"
+#include "cloth/keep_outside.h"
 #include "cloth/uv_rest.h"
 #include "config/fabric.h"
 #include "config/rest_choice.h"
 #include "scene/animation.h"
 #include "scene/load_model.h"
+#include "scene/moving_body.h"
 #include "scene/wrinkles.h"
 #include "shell/follow.h"
 #include "wrinkle/facets.h"
@@ -38,6 +43,7 @@ struct Piece {
   Positions rest;   // where its vertices are at rest, m; empty: in flat panels
   shell::FollowSettings settings;
   std::optional<shell::Follower> follower;
+  std::optional<ShellPoints> points;  // where there are bodies
 
   Positions part_of(const Positions& of_all) const {
     Positions result(3, static_cast<Eigen::Index>(vertices.size()));
@@ -66,7 +72,7 @@ std::vector<double> rest_lengths(const wrinkle::BaseSurface& surface) {
 // rest_positions: empty where the rest shape is flat panels.
 std::vector<Piece> pieces_of(const wrinkle::BaseSurface& surface, const Positions& rest_positions,
                              const config::SolveSettings& solve, double poisson, double edges,
-                             const std::vector<bool>& held, double& largest) {
+                             const std::vector<bool>& held, bool bodies, double& largest) {
   const shell::Topology& topology = surface.topology;
   std::vector<Piece> pieces(topology.component_count);
   std::vector<std::uint32_t> local(topology.vertex_count, 0);
@@ -110,8 +116,9 @@ std::vector<Piece> pieces_of(const wrinkle::BaseSurface& surface, const Position
     const std::size_t vertex_count = piece.vertices.size();
     std::vector<bool> own_held;
     for (const std::uint32_t v : piece.vertices) own_held.push_back(held[v]);
-    piece.follower.emplace(shell::build_topology(std::move(faces[p]), vertex_count), std::move(rests[p]),
-                           piece.rest, settings, std::move(own_held));
+    shell::Topology own = shell::build_topology(std::move(faces[p]), vertex_count);
+    if (bodies) piece.points.emplace(own, rests[p]);
+    piece.follower.emplace(std::move(own), std::move(rests[p]), piece.rest, settings, std::move(own_held));
   }
   return pieces;
 }
@@ -185,16 +192,80 @@ shell::Material material_for(double wavelength, double tension_limit, const wrin
   return material;
 }
 
+// The bodies of a scene, frame by frame, for shells that are to stay outside.
+class ScenesBodies {
+ public:
+  ScenesBodies(const config::SceneSettings& scene, const Surface& surface, const scene::Timeline& clip)
+      : surface_(surface) {
+    for (const std::string& name : scene.solve.bodies)
+      sources_.emplace_back(scene, surface, clip, name, "--body");
+  }
+  bool any() const { return !sources_.empty(); }
+
+  // Of the next frame; frames in order. `welded`: places of the surface's welded vertices.
+  void add(int frame, const std::vector<glm::dvec3>& welded) {
+    auto& all = frames_.emplace_back();
+    for (std::size_t b = 0; b < sources_.size(); ++b) {
+      const bool same = !sources_[b].own() && !sources_[b].moves() && frame > 1;
+      all.push_back(same ? frames_.front()[b]
+                         : std::make_shared<const scene::MovingBody::Triangles>(
+                               sources_[b].at(frame, surface_, welded)));
+    }
+  }
+
+  // m, in a frame. Throws Error(bad_input) where one is open.
+  std::vector<shell::TriangleBody> at(std::size_t frame, const config::SolveSettings& solve) const {
+    std::vector<shell::TriangleBody> bodies;
+    for (std::size_t b = 0; b < sources_.size(); ++b) {
+      const scene::MovingBody::Triangles& found = *frames_[frame][b];
+      bodies.emplace_back(points_to_eigen(found.places), found.triangles, "--body " + solve.bodies[b]);
+    }
+    return bodies;
+  }
+  void hash(Hasher& hasher, std::size_t frame) const {
+    for (const auto& body : frames_[frame]) hasher(points_to_eigen(body->places), body->triangles);
+  }
+
+ private:
+  const Surface& surface_;
+  std::deque<scene::MovingBody> sources_;  // which do not move in memory
+  std::vector<std::vector<std::shared_ptr<const scene::MovingBody::Triangles>>> frames_;
+};
+
+// What keeps the shells of a frame outside its bodies; null bodies: nothing.
+struct Keeping {
+  const std::vector<shell::TriangleBody>* bodies = nullptr;
+  double gap = 0;        // m
+  Eigen::VectorXd lift;  // m, of all vertices; empty: none
+};
+
+Bodies pointers_to(const std::vector<shell::TriangleBody>& bodies) {
+  Bodies result;
+  for (const shell::TriangleBody& body : bodies) result.push_back(&body);
+  return result;
+}
+
 // Each shell's base; a shell that is only moved as a whole is its own, and has no value.
-std::vector<shell::Followed> follow(const std::vector<Piece>& pieces, const Positions& pose) {
+std::vector<shell::Followed> follow(const std::vector<Piece>& pieces, const Positions& pose,
+                                    const Keeping& keeping) {
   std::vector<shell::Followed> result;
   for (const Piece& piece : pieces) {
     if (interrupted()) return {};
     const Positions own = piece.part_of(pose);
-    if (similar(piece.rest, own) > 0)
+    if (similar(piece.rest, own) > 0) {
       result.emplace_back().converged = true;
-    else
+    } else if (keeping.bodies == nullptr) {
       result.push_back(piece.follower->follow(own));
+    } else {
+      Eigen::VectorXd lift(keeping.lift.size() > 0 ? static_cast<Eigen::Index>(piece.vertices.size()) : 0);
+      for (Eigen::Index v = 0; v < lift.size(); ++v)
+        lift[v] = keeping.lift[piece.vertices[static_cast<std::size_t>(v)]];
+      const Bodies bodies = pointers_to(*keeping.bodies);
+      KeptOutside kept = follow_outside(*piece.follower, *piece.points, own,
+                                        Clearance(*piece.points, own, bodies), bodies, keeping.gap, lift);
+      kept.followed.converged = kept.followed.converged && kept.outside;
+      result.push_back(std::move(kept.followed));
+    }
     if (interrupted()) return {};
   }
   return result;
@@ -219,6 +290,26 @@ Positions put_together(const std::vector<Piece>& pieces, const std::vector<shell
   }
   frame.moved_rms = std::sqrt(squares / static_cast<double>(base.cols()));
   return base;
+}
+
+// How near the shells of a frame come to its bodies, and how high waves may be there.
+void find_room(const std::vector<Piece>& pieces, const Positions& pose, const Positions& base,
+               const Bodies& bodies, std::vector<double>& room, FollowedFrame& frame) {
+  room.assign(static_cast<std::size_t>(base.cols()), INFINITY);
+  for (const Piece& piece : pieces) {
+    const Clearance clearance(*piece.points, piece.part_of(pose), bodies);
+    // Vertices come first.
+    frame.brought_out += static_cast<int>(
+        std::count_if(clearance.distance.begin(),
+                      clearance.distance.begin() + static_cast<std::ptrdiff_t>(piece.vertices.size()),
+                      [](double distance) { return distance < 0; }));
+    const double reach = std::max(piece.settings.wavelength, piece.edge) / 4;  // waves are not so high
+    double nearest = reach;
+    const std::vector<double> own =
+        room_of(*piece.points, clearance, piece.part_of(base), bodies, reach, nearest);
+    frame.nearest_body = frame.nearest_body > 0 ? std::min(frame.nearest_body, nearest) : nearest;
+    for (std::size_t v = 0; v < own.size(); ++v) room[piece.vertices[v]] = own[v];
+  }
 }
 
 // A base surface on which shells that are scaled as a whole have their rest shape's size: else that would be
@@ -289,8 +380,9 @@ FollowReport follow_model(const FollowRequest& request) {
   report.model = std::make_shared<const io::Model>(scene::load_model(request.scene));
   scene::Animation animation(
       *report.model, {chosen.clip, chosen.frames_per_second, chosen.rest, chosen.loop, request.scene.limits});
-  scene::select_parts(animation.surface(), request.scene.wrinkles);
+  scene::select_parts(animation.surface(), request.scene.wrinkles, solve.bodies);
   const Surface& surface = animation.surface();
+  ScenesBodies bodies(request.scene, surface, animation.timeline());
   report.welded = static_cast<int>(surface.vertex_count());
 
   report.cloth = cloth_of(surface);
@@ -327,61 +419,98 @@ FollowReport follow_model(const FollowRequest& request) {
   for (int n = 1; n <= last && !interrupted(); ++n) {
     const scene::Pose pose = animation.pose(n);
     simulated = simulated || !pose.cache.empty();
-    poses.push_back(cloth.places(scene::posed(surface, pose)));
+    const std::vector<glm::dvec3> welded = scene::posed(surface, pose);
+    poses.push_back(cloth.places(welded));
+    if (bodies.any()) bodies.add(n, welded);
     report.frames.push_back({.frame = n});
   }
   const shell::Material material = fabric.value_or(shell::Material{.young = 1e5, .poisson = 0.3});
   const std::vector<Piece> pieces = pieces_of(first.surface, rest_positions, solve, material.poisson,
-                                              simulated ? 8 : 4, first.held, report.follow);
+                                              simulated ? 8 : 4, first.held, bodies.any(), report.follow);
   const std::vector<double> lengths = rest_lengths(first.surface);
-  const SolvedCache cache(request.cache);
-  const Hash shells = shells_hash(first.surface, rest_positions, first.held, pieces);
-  report.bases.resize(count);
-  report.strained.resize(count);
-  int done = 0;
-  std::mutex telling;
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
-    if (interrupted()) return;
-    const double began = wall_seconds();
-    FollowedFrame& frame = report.frames[n];
-    Reuse reuse;
-    const auto followed =
-        cached_bases(cache, reuse, shells, poses[n], [&] { return follow(pieces, poses[n]); });
-    if (interrupted()) return;
-    report.bases[n] = put_together(pieces, followed, std::move(poses[n]), frame);
-    report.strained[n] = unscaled(pieces, report.bases[n]);
-    frame.length_kept = length_kept(first.surface.topology, lengths, report.strained[n]);
-    frame.seconds = wall_seconds() - began;
-    const std::lock_guard lock(telling);
-    report.reuse.answers += reuse.answers;
-    report.reuse.saved_s += reuse.saved_s;
-    if (request.progress) request.progress(++done, last);
-  });
-  report.interrupted = interrupted();
-  if (report.interrupted) return report;
-  check_scale(first.surface, report.strained);
-
-  first.surface.positions = report.bases.front();
-  std::size_t most = 0;
   double edge = 0;
-  for (const Piece& piece : pieces)
+  for (std::size_t most = 0; const Piece& piece : pieces)
     if (piece.vertices.size() > most) {  // the same shell as report.follow's, but where two are as large
       most = piece.vertices.size();
       edge = piece.edge;
     }
+  const double gap = solve.gap >= 0 ? solve.gap : std::max(fabric ? fabric->thickness / 2 : 0, edge / 50);
+  const SolvedCache cache(request.cache);
+  const Hash shells = shells_hash(first.surface, rest_positions, first.held, pieces);
+  report.bases.resize(count);
+  report.strained.resize(count);
+  if (bodies.any()) report.room.resize(count);
+  int done = 0;
+  std::mutex telling;
+  // `lifted`: once more, where a body is near, with room for the waves that the surface would have.
+  const auto follow_all = [&](bool lifted) {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+      if (interrupted()) return;
+      const double began = wall_seconds();
+      FollowedFrame& frame = report.frames[n];
+      std::vector<shell::TriangleBody> of_frame;
+      Keeping keeping;
+      Hash question = shells;
+      if (bodies.any()) {
+        of_frame = bodies.at(n, solve);
+        keeping = {&of_frame, gap, {}};
+        Hasher hasher(question);
+        bodies.hash(hasher, n);
+        hasher(gap);
+        if (lifted) {
+          WrinkleRequest each;
+          each.scene = first;
+          each.scene.surface.positions = report.strained[n];
+          keeping.lift = wanted_heights(each.scene.surface, forms_of(each), first.material);
+          hasher(keeping.lift);
+        }
+      }
+      Reuse reuse;
+      const auto followed =
+          cached_bases(cache, reuse, question, poses[n], [&] { return follow(pieces, poses[n], keeping); });
+      if (interrupted()) return;
+      frame = {.frame = frame.frame, .seconds = frame.seconds};
+      report.bases[n] = put_together(pieces, followed, poses[n], frame);
+      report.strained[n] = unscaled(pieces, report.bases[n]);
+      frame.length_kept = length_kept(first.surface.topology, lengths, report.strained[n]);
+      if (bodies.any() && lifted)
+        find_room(pieces, poses[n], report.bases[n], pointers_to(of_frame), report.room[n], frame);
+      frame.seconds += wall_seconds() - began;
+      const std::lock_guard lock(telling);
+      report.reuse.answers += reuse.answers;
+      report.reuse.saved_s += reuse.saved_s;
+      if (request.progress) request.progress(++done, (bodies.any() ? 2 : 1) * last);
+    });
+    report.interrupted = interrupted();
+  };
+  follow_all(false);
+  if (report.interrupted) return report;
+  check_scale(first.surface, report.strained);
+
+  first.surface.positions = report.bases.front();
   report.wavelength = request.scene.wrinkles.wavelength > 0 ? request.scene.wrinkles.wavelength : 3 * edge;
   if (fabric) {
     first.material = *fabric;
-    return report;
+  } else {
+    constexpr int samples = 8;  // evenly over the clip
+    std::vector<Positions> of_clip;
+    for (int k = 0; k < samples; ++k) {
+      const auto n = static_cast<std::size_t>(k * (last - 1) / (samples - 1));
+      if (k == 0 || n != static_cast<std::size_t>((k - 1) * (last - 1) / (samples - 1)))
+        of_clip.push_back(report.strained[n]);
+    }
+    first.material = material_for(report.wavelength, solve.tension_limit, first.surface, of_clip);
   }
-  constexpr int samples = 8;  // evenly over the clip
-  std::vector<Positions> of_clip;
-  for (int k = 0; k < samples; ++k) {
-    const auto n = static_cast<std::size_t>(k * (last - 1) / (samples - 1));
-    if (k == 0 || n != static_cast<std::size_t>((k - 1) * (last - 1) / (samples - 1)))
-      of_clip.push_back(report.strained[n]);
+  if (bodies.any()) {
+    follow_all(true);
+    first.surface.positions = report.bases.front();
+    const auto inside = std::ranges::find_if(report.frames, [](const auto& f) { return f.brought_out > 0; });
+    if (inside != report.frames.end())
+      log::warn(
+          fmt::format("frame {}: {} vertices of the cloth are inside a body as the model has it, and are "
+                      "brought out; other frames are the report's 'brought_out'",
+                      inside->frame, inside->brought_out));
   }
-  first.material = material_for(report.wavelength, solve.tension_limit, first.surface, of_clip);
   return report;
 }
 

@@ -25,7 +25,9 @@ struct FollowedFrame {
   double moved_rms = 0, moved_most = 0;  // m, from the pose
   double length_kept = 1;                // median of edges' lengths over those at rest
   int iterations = 0;
-  int still = 0;  // shells that are only moved or scaled as a whole: nothing was solved
+  int still = 0;            // shells that are only moved or scaled as a whole: nothing was solved
+  int brought_out = 0;      // vertices that the model has inside a body
+  double nearest_body = 0;  // m: the smallest distance of the surface from a body; 0: there is none
   bool converged = false;
   double seconds = 0;
 };
@@ -40,7 +42,8 @@ struct FollowReport {
   std::vector<shell::Positions> bases;  // of every frame of the clip
   // The same, but that shells which are only scaled as a whole have their size at rest: what fields are for.
   std::vector<shell::Positions> strained;
-  std::vector<FollowedFrame> frames;  // the same
+  std::vector<std::vector<double>> room;  // of every frame, as WrinkleScene's; empty: no body is near
+  std::vector<FollowedFrame> frames;      // the same
   std::size_t shells = 0;
   double follow = 0;      // m: Λ of the largest shell
   double wavelength = 0;  // m: what a material was chosen for, where no fabric was given

@@ -70,6 +70,7 @@ Hash fields_hash(const FollowReport& followed) {
          first.tension_limit);
   for (const shell::RestFace& face : first.surface.rest) hasher(face.edges);
   for (const shell::Positions& base : followed.strained) hasher(base);
+  hasher(followed.room);
   return hash;
 }
 
@@ -128,6 +129,7 @@ SolvedScene solve_scene(const SolveRequest& request) {
   WrinkleSequenceRequest fields;
   fields.each.scene = followed.first;
   fields.poses = std::move(followed.strained);
+  fields.room = std::move(followed.room);
   if (scene.solve.quality == config::SolveQuality::draft) fields.quality = wrinkle::Quality::draft;
   fields.frames = fmt::format("1-{}", last);
   fields.on_field = [&](const WrinkleSequenceFrame& frame, const wrinkle::CoarseField& field) {

@@ -61,12 +61,15 @@ std::vector<wrinkle::FaceForms> forms_of(const WrinkleRequest& request) {
   const bool chords = request.chords && request.scene.chords;
   if (chords) wrinkle::correct_chords(forms);
   if (request.noise) wrinkle::find_noise(forms, surface, request.scene.material, chords);
+  if (!request.scene.room.empty())
+    for (std::size_t f = 0; f < forms.size(); ++f)
+      for (std::size_t c = 0; c < 3; ++c) forms[f].room[c] = request.scene.room[surface.topology.faces[f][c]];
   return forms;
 }
 
 WrinkleScene read_base(const fs::path& file) {
-  const io::Ply ply =
-      io::read_ply(file, {"x", "y", "z", "held", "vertex_indices", "vertex_index", "rest", "texcoord"});
+  const io::Ply ply = io::read_ply(
+      file, {"x", "y", "z", "held", "room", "vertex_indices", "vertex_index", "rest", "texcoord"});
   for (const std::string& comment : ply.comments)
     if (comment.starts_with("not converged")) log::warn(fmt::format("{}: {}", file.string(), comment));
   WrinkleScene scene;
@@ -103,13 +106,18 @@ WrinkleScene read_base(const fs::path& file) {
     const std::vector<double>& held = ply.numbers("vertex", {"held"});
     for (std::size_t v = 0; v < count; ++v) scene.held[v] = held[v] != 0;
   }
+  if (ply.element("vertex").find("room")) {
+    scene.room = ply.numbers("vertex", {"room"});
+    for (const double room : scene.room)
+      if (!(room >= 0)) throw bad(file, fmt::format("a vertex has a room of {}, and none is below 0", room));
+  }
   return scene;
 }
 
 WrinkleScene base_of(const DrapeScene& scene, const fs::path& cache) {
   shell::Shell shell = shell_of(scene);
   const shell::Conditions conditions = scene.conditions(1);
-  WrinkleScene result{scene.name, {}, scene.material, {}, scene.chords, 0, nullptr};
+  WrinkleScene result{scene.name, {}, scene.material, {}, scene.chords};
   result.surface.positions = scene.start;
   if (!scene.solved) {
     const SolvedCache answers(cache);

@@ -24,7 +24,10 @@ struct WrinkleScene {
   // TFW authors' set-ups, whose own program takes their strain as it is.
   bool chords = true;
   double tension_limit = 0;  // of λ₁: what is beyond is no tension (wrinkle/facets.h); 0: none
-  std::shared_ptr<const ClothLook> look;  // of the model that it was made of; null: nothing is known
+  // m, one a vertex: the largest amplitude that a body leaves there; empty: no body is near.
+  std::vector<double> room = {};
+  std::shared_ptr<const ClothLook> look =
+      nullptr;  // of the model that it was made of; null: nothing is known
 };
 
 // A base.ply of `plisse drape`, with rest triangles and material. Throws Error(bad_input).

@@ -29,7 +29,8 @@ constexpr int sequence_levels = 3;
 // Base surfaces one after the other.
 class Bases {
  public:
-  explicit Bases(const WrinkleSequenceRequest& request) : poses_(request.poses), from_(request.first) {
+  explicit Bases(const WrinkleSequenceRequest& request)
+      : poses_(request.poses), room_(request.room), from_(request.first) {
     if (!poses_.empty()) {
       first_ = request.each.scene;
     } else if (config::is_frame_pattern(request.bases.string())) {
@@ -60,6 +61,7 @@ class Bases {
     if (!poses_.empty()) {
       WrinkleScene scene = first_;
       scene.surface.positions = poses_[index];
+      if (!room_.empty()) scene.room = room_[index];
       return scene;
     }
     if (!files_.empty()) {
@@ -80,6 +82,7 @@ class Bases {
 
  private:
   const std::vector<shell::Positions>& poses_;
+  const std::vector<std::vector<double>>& room_;
   int from_;
   std::vector<fs::path> files_;
   io::VertexCache cache_;

@@ -20,6 +20,7 @@ struct WrinkleSequenceRequest {
   std::filesystem::path cache;  // .pc2 or .mdd; empty: none
   // Or in memory: the places of each.scene's vertices from frame `first` on, in place of both.
   std::vector<shell::Positions> poses;
+  std::vector<std::vector<double>> room;  // of each pose, as WrinkleScene's; empty: no body is near
   int first = 1;
   std::string frames;  // a selection; empty: all. Fields are the same in any selection.
   int fade = 6;        // see wrinkle::SequenceOptions

@@ -143,9 +143,11 @@ struct SolveSettings {
   bool on = false;  // the scene has the table, or --solve is given
   SolveMethod method = SolveMethod::direct;
   SolveQuality quality = SolveQuality::final;
-  std::string fabric;           // as parse_fabric takes it; empty: one whose waves have the wavelength
-  double follow = -1;           // Λ, metres; −1: from the mesh; 0: nothing is handed to waves
-  double tension_limit = 0.05;  // of λ₁, twice the Green strain; 0: none
+  std::string fabric;               // as parse_fabric takes it; empty: one whose waves have the wavelength
+  double follow = -1;               // Λ, metres; −1: from the mesh; 0: nothing is handed to waves
+  double tension_limit = 0.05;      // of λ₁, twice the Green strain; 0: none
+  std::vector<std::string> bodies;  // meshes or materials of the model, or models' files
+  double gap = -1;                  // metres between cloth and bodies; −1: half the cloth's thickness
 };
 
 template <typename Row>
@@ -172,6 +174,13 @@ void solve_keys(Row& row) {
       "How far stretch counts as the cloth's tension, as twice the Green strain: what a rig stretches beyond "
       "is none; 0: all counts.",
       {"--tension-limit", "X"});
+  row("bodies", &S::bodies, names_or_files(),
+      "What the cloth stays outside of, base surface and waves: meshes or materials of the model, or files "
+      "of "
+      "models that move with it; each must be closed.",
+      {"--body", "MESH|MATERIAL|FILE"});
+  row("gap", &S::gap, length({0, 1e9, "half the fabric's thickness, at least 1/50 of an edge", -1}),
+      "How far the base surface stays from the bodies.");
 }
 
 enum class RelaxMode { descent, smooth };  // state over time, rule 3

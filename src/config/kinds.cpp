@@ -296,6 +296,19 @@ Kind<std::vector<std::string>> names() {
           true};
 }
 
+Kind<std::vector<std::string>> names_or_files() {
+  Kind<std::vector<std::string>> kind = names();
+  kind.read = [plain = kind.read](const Given& given) {
+    std::vector<std::string> result = plain(given);
+    for (std::string& name : result) {
+      const fs::path path = resolved(given, name);
+      if (is_there(path) || (path.has_extension() && names_many_files(path))) name = path.string();
+    }
+    return result;
+  };
+  return kind;
+}
+
 Kind<std::string> word(std::vector<std::string> words, std::string_view empty) {
   return {"word", fmt::format("{}; empty: {}", either(words), empty),
           [=](const Given& given) {

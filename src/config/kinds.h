@@ -57,6 +57,7 @@ Kind<bool> truth();
 Kind<std::string> text();
 Kind<std::string> name_or_index(std::string_view empty);  // empty: what "" stands for
 Kind<std::vector<std::string>> names();
+Kind<std::vector<std::string>> names_or_files();  // files that are there, or patterns, with their folder
 Kind<std::string> word(std::vector<std::string> words, std::string_view empty);
 Kind<std::string> frame_selection();
 Kind<std::pair<int, int>> picture_size();

@@ -71,7 +71,8 @@ LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemo
                 fmt::format("rest '{}': flat panels are the rest shape of solved wrinkles only: add --solve, "
                             "or take another",
                             settings.model.rest));
-  scene::select_parts(animation.surface(), settings.wrinkles);
+  scene::select_parts(animation.surface(), settings.wrinkles,
+                      settings.solve.on ? settings.solve.bodies : std::vector<std::string>{});
   if (settings.wrinkles.wavelength <= 0) settings.wrinkles.wavelength = scene::default_wavelength(surface());
   rest = rest_frames(surface());
   waves = scene::vertex_waves(surface(), settings.wrinkles, wavelength());

@@ -1,19 +1,11 @@
 #include "pipeline/outside.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/eigen_glm.h"
-#include "base/error.h"
-#include "config/frames.h"
-#include "config/suggest.h"
-#include "io/import.h"
-#include "scene/load_model.h"
 
 namespace plisse::pipeline {
 namespace {
@@ -39,73 +31,20 @@ double entry(const shell::TriangleBody& solid, const Eigen::Vector3d& from, cons
 
 }  // namespace
 
-Outside::Outside(const LoadedScene& scene, const std::string& body) : scene_(scene), name_(body) {
-  const auto& parts = scene.surface().parts;
-  std::set<std::string> known;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].mesh == body || parts[p].material_name == body) parts_.push_back(p);
-    known.insert({parts[p].mesh, parts[p].material_name});
-  }
-  if (!parts_.empty()) return;
-  known.erase("");
-  const std::vector<std::string> names(known.begin(), known.end());
-  std::error_code ignored;
-  if (!std::filesystem::exists(body, ignored) && !config::names_many_files(body)) {
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("--outside {}: there is no such file, and the model has no such mesh or material{}; "
-                    "it has: {}",
-                    body, config::did_you_mean(body, names), fmt::join(names, ", ")));
-  }
-  io::ImportOptions options = scene::import_options(scene.settings);
-  options.cache.clear();
-  const scene::Timeline& clip = scene.animation.timeline();
-  scene::AnimationChoice choice;
-  choice.frames_per_second = clip.frames_per_second;
-  choice.limits = scene.settings.limits;
-  model_ = io::import_model(body, options);
-  animation_.emplace(model_, choice);
-  const int frames = animation_->timeline().frame_count;
-  if (frames > 1 && frames < clip.frame_count) {
-    throw Error(ExitCode::bad_input,
-                fmt::format("--outside {}: has {} frames, the clip has {}; a body has one, or as many", body,
-                            frames, clip.frame_count));
-  }
-}
+Outside::Outside(const LoadedScene& scene, const std::string& body)
+    : scene_(scene),
+      name_(body),
+      source_(scene.settings, scene.surface(), scene.animation.timeline(), body, "--outside") {}
 
 shell::TriangleBody Outside::body(int frame, const std::vector<glm::dvec3>& base) {
-  const Surface& surface = animation_ ? animation_->surface() : scene_.surface();
-  std::vector<glm::dvec3> positions = base;  // begins with the welded vertices; a part needs only these
-  if (animation_) {
-    positions = scene::posed(surface, animation_->pose(std::min(frame, animation_->timeline().frame_count)));
-    for (glm::dvec3& x : positions) x = scene_.units.world(x);
-  }
-  // Only the vertices of the body, not those of other parts.
-  constexpr std::uint32_t none = ~std::uint32_t{0};
-  std::vector<std::uint32_t> number(surface.vertex_count(), none);
-  std::vector<glm::dvec3> places;
-  std::vector<std::uint32_t> corners;
-  for (std::size_t p = 0; p < surface.parts.size(); ++p) {
-    const Part& part = surface.parts[p];
-    if (!animation_ && std::count(parts_.begin(), parts_.end(), p) == 0) continue;
-    for (std::size_t i = 3 * std::size_t{part.first_triangle};
-         i < 3 * (std::size_t{part.first_triangle} + part.triangle_count); ++i) {
-      const std::uint32_t v = surface.render_vertices[surface.triangles[i]].welded;
-      if (number[v] == none) {
-        number[v] = static_cast<std::uint32_t>(places.size());
-        places.push_back(positions[v]);
-      }
-      corners.push_back(number[v]);
-    }
-  }
-  std::vector<TriangleTree::Triangle> triangles;
-  for (std::size_t t = 0; t < corners.size(); t += 3)
-    triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
-  return {points_to_eigen(places), std::move(triangles), "--outside " + name_};
+  scene::MovingBody::Triangles found = source_.at(frame, scene_.surface(), base);
+  if (!source_.own())
+    for (glm::dvec3& x : found.places) x = scene_.units.world(x);
+  return {points_to_eigen(found.places), std::move(found.triangles), "--outside " + name_};
 }
 
 void Outside::take(int frame, const std::vector<glm::dvec3>& welded) {
-  const bool still = animation_ && !moves();
+  const bool still = !source_.own() && !moves();
   if (!still || !body_) body_.emplace(body(frame, welded));
 }
 
@@ -125,7 +64,7 @@ glm::dvec3 Outside::normal_near(const glm::dvec3& x) const {
 }
 
 bool Outside::owns(std::size_t triangle) const {
-  return std::ranges::any_of(parts_, [&](std::size_t p) {
+  return std::ranges::any_of(source_.parts(), [&](std::size_t p) {
     const Part& part = scene_.surface().parts[p];
     return triangle >= part.first_triangle &&
            triangle < std::size_t{part.first_triangle} + part.triangle_count;
@@ -137,7 +76,7 @@ void Outside::hold(int frame, const Subdivision& mesh, DisplacedSurface& moved) 
   take(frame, base);
 
   std::vector<std::uint8_t> own(base.size(), 0), cut(base.size(), 0);  // own: the body's own surface
-  for (const std::size_t p : parts_) {
+  for (const std::size_t p : source_.parts()) {
     const Part& part = scene_.surface().parts[p];
     const auto [first, count] = mesh.small_triangles(part.first_triangle, part.triangle_count);
     for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)

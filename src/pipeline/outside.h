@@ -7,6 +7,7 @@
 
 #include "mesh/subdivide.h"
 #include "pipeline/loaded_scene.h"
+#include "scene/moving_body.h"
 #include "shell/triangle_body.h"
 
 namespace plisse::pipeline {
@@ -19,7 +20,7 @@ class Outside {
   Outside(const LoadedScene& scene, const std::string& body);
 
   // Whether the body may move while the scene's own pose does not change.
-  bool moves() const { return animation_ && animation_->timeline().frame_count > 1; }
+  bool moves() const { return source_.moves(); }
 
   // Shortens a point's displacement from its base where it would enter the body; a base that is already
   // inside is moved only where it does not get deeper. Points that were stopped get the normals of the
@@ -40,9 +41,7 @@ class Outside {
   shell::TriangleBody body(int frame, const std::vector<glm::dvec3>& base);
   const LoadedScene& scene_;
   std::string name_;
-  std::vector<std::size_t> parts_;  // of the scene's surface; or else
-  io::Model model_;
-  std::optional<scene::Animation> animation_;
+  scene::MovingBody source_;
   std::optional<shell::TriangleBody> body_;  // of the last frame
 };
 

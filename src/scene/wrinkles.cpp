@@ -86,7 +86,8 @@ double noise(const glm::dvec3& x, std::uint32_t seed, int channel) {
 
 }  // namespace
 
-void select_parts(Surface& surface, const config::WrinkleSettings& settings) {
+void select_parts(Surface& surface, const config::WrinkleSettings& settings,
+                  const std::vector<std::string>& bodies) {
   std::set<std::string> known;
   for (const Part& part : surface.parts) {
     if (!part.mesh.empty()) known.insert(part.mesh);
@@ -107,7 +108,8 @@ void select_parts(Surface& surface, const config::WrinkleSettings& settings) {
     });
   };
   for (Part& part : surface.parts) {
-    part.wrinkles = (settings.only.empty() || named(part, settings.only)) && !named(part, settings.exclude);
+    part.wrinkles = (settings.only.empty() || named(part, settings.only)) && !named(part, settings.exclude) &&
+                    !named(part, bodies);
   }
 }
 

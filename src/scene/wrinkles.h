@@ -8,9 +8,11 @@
 
 namespace plisse::scene {
 
-// Switches off the parts that --only and --exclude leave out. Throws Error(bad_input) for a name that is
-// neither a mesh nor a material, listing those there are.
-void select_parts(Surface& surface, const config::WrinkleSettings& settings);
+// Switches off the parts that --only and --exclude leave out, and those that are bodies by their mesh's or
+// material's name. Throws Error(bad_input) for a name of the settings that is neither a mesh nor a material,
+// listing those there are.
+void select_parts(Surface& surface, const config::WrinkleSettings& settings,
+                  const std::vector<std::string>& bodies = {});
 
 // The default W: the mean edge length of the wrinkling parts, limited to 1/80 … 1/12 of the rest diagonal.
 double default_wavelength(const Surface& surface);

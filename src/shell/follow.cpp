@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "shell/bending_quadratic.h"
 #include "shell/stretching.h"
 
@@ -144,6 +145,68 @@ Eigen::SparseMatrix<double> membrane(const Topology& topology, const std::vector
   return result;
 }
 
+// Half-spaces as an augmented Lagrangian (Hestenes 1969, Powell 1969): of each the multiplier p, N, and the
+// stiffness k, N/m, of what is added to the energy, (max(0, p − kd)² − p²)/2k at a distance d beyond its
+// plane.
+class Walls {
+ public:
+  // stiffness: of the metric at the vertices. Walls add at most so many times that to each: more makes
+  // searches longer, less makes more of them.
+  Walls(const std::vector<HalfSpace>& walls, const Positions& pose, const VectorXd& stiffness)
+      : walls_(walls), multiplier_(walls.size(), 0), stiffness_(walls.size(), 0), distance_(walls.size(), 0) {
+    constexpr double times = 20;
+    VectorXd load = VectorXd::Zero(stiffness.size());
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      double give = 0;
+      for (const auto& [v, weight] : walls[k].of) give += weight * weight / stiffness[v];
+      stiffness_[k] = give > 0 ? 1 / give : 0;
+      for (const auto& [v, weight] : walls[k].of) load[v] += stiffness_[k] * weight * weight;
+    }
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      double least = 1;
+      for (const auto& [v, weight] : walls[k].of)
+        if (weight != 0 && load[v] > 0) least = std::min(least, stiffness[v] / load[v]);
+      stiffness_[k] *= times * least;
+      Vector3d at = Vector3d::Zero();
+      for (const auto& [v, weight] : walls[k].of) at += weight * pose.col(v);
+      distance_[k] = walls[k].normal.dot(at) - walls[k].least;
+    }
+  }
+
+  double beyond(std::size_t k, const Positions& moved) const {
+    double distance = distance_[k];
+    for (const auto& [v, weight] : walls_[k].of) distance += weight * walls_[k].normal.dot(moved.col(v));
+    return distance;
+  }
+
+  void add(const Positions& moved, EnergyValue& value) const {
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+      if (!(stiffness_[k] > 0)) continue;
+      const double push = std::max(multiplier_[k] - stiffness_[k] * beyond(k, moved), 0.0),
+                   energy = (push * push - multiplier_[k] * multiplier_[k]) / (2 * stiffness_[k]);
+      value.energy += energy;
+      value.summands += std::abs(energy);
+      for (const auto& [v, weight] : walls_[k].of) value.gradient.col(v) -= push * weight * walls_[k].normal;
+    }
+  }
+
+  // Takes the pushes at the end of a search as multipliers. How far points are let in, m.
+  double take(const Positions& moved) {
+    double deepest = 0;
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+      if (!(stiffness_[k] > 0)) continue;
+      const double distance = beyond(k, moved);
+      multiplier_[k] = std::max(multiplier_[k] - stiffness_[k] * distance, 0.0);
+      deepest = std::max(deepest, -distance);
+    }
+    return deepest;
+  }
+
+ private:
+  const std::vector<HalfSpace>& walls_;
+  std::vector<double> multiplier_, stiffness_, distance_;  // the last: where nothing has moved
+};
+
 // The rotation nearest to a matrix.
 Matrix3d rotation_of(const Matrix3d& matrix) {
   const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -219,7 +282,9 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
   const Eigen::SparseMatrix<double> smoothing =
       form_ + Eigen::SparseMatrix<double>((tether_ * areas_).asDiagonal());
   smoothing_.emplace(smoothing, free_);
-  metric_.emplace(smoothing + membrane(topology_, rest_, material_), free_);
+  const Eigen::SparseMatrix<double> metric = smoothing + membrane(topology_, rest_, material_);
+  metric_.emplace(metric, free_);
+  stiffness_ = metric.diagonal();
 
   if (rest_positions.size() == 0) return;
   rest_curvature_ = rest_positions * curvature_.transpose();
@@ -295,7 +360,8 @@ EnergyValue Follower::value(const Positions& pose, const Positions& moved, const
   return result;
 }
 
-Followed Follower::follow(const Positions& pose, const Positions* start) const {
+Followed Follower::follow(const Positions& pose, const Positions* start,
+                          const std::vector<HalfSpace>& outside) const {
   if (pose.cols() != areas_.size() || !pose.allFinite())
     throw Error(ExitCode::bad_input,
                 pose.allFinite()
@@ -321,11 +387,36 @@ Followed Follower::follow(const Positions& pose, const Positions* start) const {
   search.max_iterations = settings_.max_iterations;
   search.tolerance = settings_.tolerance * settings_.wavelength;
   search.good_enough = 1e-5 * settings_.wavelength;  // a hundredth of what an eye sees in a wave
-  const Minimum minimum = find_minimum(
-      moved, [&](const Positions& u) { return value(given, u, pull); },
-      [&](const Positions& gradient) { return metric_->solve(gradient); }, search);
-  result.converged = minimum.converged;
-  result.iterations = minimum.iterations;
+  const auto metric = [&](const Positions& gradient) { return metric_->solve(gradient); };
+  Minimum minimum;
+  if (outside.empty()) {
+    minimum = find_minimum(
+        moved, [&](const Positions& u) { return value(given, u, pull); }, metric, search);
+    result.converged = minimum.converged;
+    result.iterations = minimum.iterations;
+  } else {
+    // Early searches need not end: what they are for changes with the multipliers.
+    constexpr int most_rounds = 40, early = 8, early_steps = 15;
+    search.memory = 20;
+    search.tolerance = 1e-6 * settings_.wavelength;
+    Walls walls(outside, pose, stiffness_);
+    minimum.x = moved;
+    for (int round = 0; round < most_rounds && !result.converged && !interrupted(); ++round) {
+      search.max_iterations = round < early ? early_steps : settings_.max_iterations;
+      minimum = find_minimum(
+          minimum.x,
+          [&](const Positions& u) {
+            EnergyValue sum = value(given, u, pull);
+            walls.add(u, sum);
+            for (Index v = 0; v < u.cols(); ++v)
+              if (!free_[static_cast<std::size_t>(v)]) sum.gradient.col(v).setZero();
+            return sum;
+          },
+          metric, search);
+      result.iterations += minimum.iterations;
+      result.converged = walls.take(minimum.x) <= 1e-4 * settings_.wavelength && minimum.converged;
+    }
+  }
   result.base += minimum.x;
   double sum = 0;
   Index used = 0;

@@ -22,6 +22,7 @@
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "shell/limited_memory.h"
@@ -44,6 +45,13 @@ struct FollowSettings {
   double tolerance = 1e-9;  // converged where no vertex moves by more than this share of Λ
 };
 
+// Where a point of the base surface, Σ weight · vertex, may be: n·x ≥ least, m; n of length 1, out of a body.
+struct HalfSpace {
+  std::vector<std::pair<std::uint32_t, double>> of;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();
+  double least = 0;
+};
+
 struct Followed {
   Positions base;                        // m, 3×V
   double moved_rms = 0, moved_most = 0;  // m, from the pose, over vertices with faces
@@ -59,10 +67,13 @@ class Follower {
   Follower(Topology topology, std::vector<RestFace> rest, const Positions& rest_positions,
            const FollowSettings& settings, const std::vector<bool>& held = {});
 
+  double wavelength() const { return settings_.wavelength; }  // Λ, m
   // Throws Error(bad_input) where the pose has another number of vertices or is not finite. May be called
   // from several threads. `start`: where the search begins, 3×V, on which its end does not depend; nothing:
-  // the smoothed pose.
-  Followed follow(const Positions& pose, const Positions* start = nullptr) const;
+  // the smoothed pose. outside: E with these, by an augmented Lagrangian; still one minimum, but found within
+  // 1e-6 Λ, and points are let in by at most 1e-4 Λ where it converged.
+  Followed follow(const Positions& pose, const Positions* start = nullptr,
+                  const std::vector<HalfSpace>& outside = {}) const;
 
  private:
   // What the rest shape's own curvature, turned with the pose, is for the bending: N a vertex, 3×V.
@@ -89,6 +100,7 @@ class Follower {
       frames_;                        // of each rest face in space: its axes u, v and its normal; empty: flat
   Eigen::SparseMatrix<double> form_;  // their sum of squares, V×V, N/m
   std::optional<VertexSolver> smoothing_, metric_;  // bending and tether; and the membrane
+  Eigen::VectorXd stiffness_;                       // of the latter at each vertex, N/m
 };
 
 }  // namespace plisse::shell

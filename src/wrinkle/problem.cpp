@@ -118,6 +118,11 @@ Problem::Problem(shell::Topology topology, std::vector<FaceForms> forms, const M
         if (const Index i = amplitude_unknown_[v]; i >= 0) upper_[i] = std::max(upper_[i], most);
     }
   }
+  constexpr double none = 1e-9;  // in the scale: a range for the solver, and nothing to see
+  for (std::size_t f = 0; f < forms_.size(); ++f)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const Index i = amplitude_unknown_[topology_.faces[f][c]]; i >= 0)
+        upper_[i] = std::min(upper_[i], std::max(forms_[f].room[c] / amplitude_scale_, none));
 
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t f = 0; f < topology_.faces.size(); ++f) {

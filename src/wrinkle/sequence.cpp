@@ -446,6 +446,11 @@ SequenceFrame FieldSequence::of_span(int number, int n) const {
         Problem(clip_.topology, forms.forms, clip_.model, forms.wrinkle_free, clip_.clamped).pinned();
     for (std::size_t v = 0; v < pinned.size(); ++v)
       if (pinned[v]) result.field.amplitude[static_cast<Index>(v)] = 0;
+    for (std::size_t f = 0; f < forms.forms.size(); ++f)
+      for (std::size_t c = 0; c < 3; ++c) {
+        double& height = result.field.amplitude[static_cast<Index>(clip_.topology.faces[f][c])];
+        height = std::min(height, forms.forms[f].room[c]);
+      }
     result.waves = key_at(share < 0.5 ? near : far).waves;
     return result;
   }

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "shell/fundamental_forms.h"
@@ -25,6 +27,9 @@ struct FaceForms {
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();       // I_u⁻¹I_b − id: twice the Green strain
   Eigen::Matrix2d second_form = Eigen::Matrix2d::Zero();  // II_b, 1/m
   double noise = 0;                                       // compression up to this is none (facets.h)
+  // m: the largest amplitude at each corner; finite where a body is near, which waves are not to enter.
+  std::array<double, 3> room{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity()};
 };
 
 // The direction in which waves travel: the unit eigenvector ŵ of the strain's smaller eigenvalue λ₂ (eq. 29),

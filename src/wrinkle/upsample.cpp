@@ -33,11 +33,11 @@ void check(const BaseSurface& surface, const CoarseField& field) {
 }
 
 // Vertices of the outline where its rest shape turns.
-std::vector<std::uint32_t> sharp_corners(const BaseSurface& surface) {
-  const shell::Topology& topology = surface.topology;
+std::vector<std::uint32_t> sharp_corners(const shell::Topology& topology,
+                                         const std::vector<shell::RestFace>& rest) {
   std::vector<double> angle(topology.vertex_count, 0);
   for (std::size_t f = 0; f < topology.faces.size(); ++f) {
-    const Eigen::Matrix2d& e = surface.rest[f].edges;
+    const Eigen::Matrix2d& e = rest[f].edges;
     const std::array<Eigen::Vector2d, 3> x{Eigen::Vector2d(0, 0), e.col(0), e.col(1)};
     for (std::size_t c = 0; c < 3; ++c) {
       const Eigen::Vector2d a = x[(c + 1) % 3] - x[c], b = x[(c + 2) % 3] - x[c];
@@ -69,8 +69,8 @@ std::array<CornerField, 2> uv_fields(const LoopLevel& level,
 
 FineField upsample(const BaseSurface& surface, const CoarseField& field, int levels, const Extras& extras) {
   check(surface, field);
-  const LoopSubdivision loop =
-      subdivide_loop(surface.topology.faces, surface.topology.vertex_count, levels, sharp_corners(surface));
+  const LoopSubdivision loop = subdivide_loop(surface.topology.faces, surface.topology.vertex_count, levels,
+                                              sharp_corners(surface.topology, surface.rest));
   std::vector<bool> waves;
   for (const shell::Face& t : surface.topology.faces)
     waves.push_back(field.amplitude[t[0]] > 0 || field.amplitude[t[1]] > 0 || field.amplitude[t[2]] > 0);
@@ -143,6 +143,29 @@ FineField upsample(const BaseSurface& surface, const CoarseField& field, int lev
   if (!result.positions.allFinite() || !result.amplitude.allFinite() || !result.gradient.allFinite())
     throw Error(ExitCode::check_failed, "the up-sampled field is not finite");
   return result;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> limit_points(const shell::Topology& topology,
+                                                          const std::vector<shell::RestFace>& rest,
+                                                          int levels) {
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const LoopSubdivision loop =
+      subdivide_loop(topology.faces, topology.vertex_count, levels, sharp_corners(topology, rest));
+  const auto matrix = [](const Rows<LoopWeight>& rows, Index columns) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t v = 0; v + 1 < rows.offsets.size(); ++v)
+      for (std::uint32_t i = rows.offsets[v]; i < rows.offsets[v + 1]; ++i)
+        entries.emplace_back(static_cast<int>(v), static_cast<int>(rows.items[i].vertex),
+                             rows.items[i].weight);
+    Matrix result(static_cast<Index>(rows.offsets.size()) - 1, columns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  };
+  Matrix all(static_cast<Index>(topology.vertex_count), static_cast<Index>(topology.vertex_count));
+  all.setIdentity();
+  for (std::size_t l = 1; l < loop.levels.size(); ++l)
+    all = Matrix(matrix(loop.levels[l].masks, all.rows()) * all);
+  return matrix(loop.limit, all.rows()) * all;
 }
 
 Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms>& forms, double poisson,

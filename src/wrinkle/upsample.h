@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
@@ -45,6 +46,12 @@ struct Extras {
 // finite.
 FineField upsample(const BaseSurface& surface, const CoarseField& field, int levels,
                    const Extras& extras = {});
+
+// Points of the limit surface, those of every edge halved `levels` times, as combinations of the vertices: a
+// row each. Throws as upsample does.
+Eigen::SparseMatrix<double, Eigen::RowMajor> limit_points(const shell::Topology& topology,
+                                                          const std::vector<shell::RestFace>& rest,
+                                                          int levels);
 
 // (17) at each vertex, the faces' mean by area and a².
 Eigen::Matrix3Xd leaning(const BaseSurface& surface, const std::vector<FaceForms>& forms, double poisson,

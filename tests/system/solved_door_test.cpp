@@ -290,6 +290,63 @@ TEST_F(SolvedDoor, BakedWavesRelightTheBaseAsTheFrame) {
   EXPECT_GT(varied / static_cast<double>(pixels), 10);  // and there is something to see
 }
 
+// A pressed sheet just above a box: its waves, 40 mm high, would cut into it by half of that.
+TEST_F(SolvedDoor, ClothStaysOutsideABody) {
+  write_sheets(3);
+  constexpr double top = -0.006;  // zigzags reach 11 mm down: they begin in it
+  std::string box;
+  for (const double z : {-1.0, top})
+    for (const double y : {-1, 2})
+      for (const double x : {-1, 2}) box += fmt::format("v {} {} {}\n", x, y, z);
+  write_text(folder_ / "box.obj", box + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n");
+  const auto lowest = [&](const std::string& name) {
+    double least = 1;
+    std::istringstream obj(read_text(folder_ / name));
+    for (std::string line; std::getline(obj, line);) {
+      double x = 0, y = 0, z = 0;
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3) least = std::min(least, z);
+    }
+    return least;
+  };
+  const std::vector<std::string> common = {
+      "--solve", "--frames",          "3",  "--levels",    "3",
+      "--json",  file("report.json"), "-q", "--cache-dir", file("cache")};
+  const auto exported = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"export", file("sheet_####.obj")});
+    arguments.insert(arguments.end(), common.begin(), common.end());
+    run(arguments);
+  };
+  exported({"-o", file("free.obj")});
+  EXPECT_LT(lowest("free.obj"), top - 5e-3);
+  const double untaken = report()["solve"]["frames"][2]["untaken"];
+  exported({"-o", file("kept.obj"), "--body", file("box.obj")});
+  EXPECT_GT(lowest("kept.obj"), top);
+  const auto last = report()["solve"]["frames"][2];
+  EXPECT_GT(last["nearest_body_m"].get<double>(), 0);
+  EXPECT_TRUE(last["converged"]);
+  // Lifted, so that it waves as before.
+  EXPECT_LT(last["untaken"].get<double>(), untaken + 0.1);
+  // The same from files, by a scene, and from the base surfaces alone.
+  run({"wrinkle", file("sheet_####.obj"), "--body", file("box.obj"), "-o", file("waves"), "--mesh",
+       file("mesh_####.obj"), "-q"});
+  EXPECT_GT(lowest("mesh_0003.obj"), top);
+  run({"wrinkle", file("waves/base_####.ply"), "-o", file("field_####.ply"), "--mesh", file("again_####.obj"),
+       "-q"});
+  EXPECT_GT(lowest("again_0003.obj"), top);
+  write_text(folder_ / "scene.toml", "[model]\npath = \"sheet_####.obj\"\n[solve]\nbodies = \"box.obj\"\n");
+  run({"export", file("scene.toml"), "--frames", "3", "--levels", "3", "-o", file("scene.obj"), "-q",
+       "--cache-dir", file("cache")});
+  EXPECT_TRUE(read_text(folder_ / "scene.obj") == read_text(folder_ / "kept.obj"));
+
+  const auto error = [&](const std::string& body) {
+    return refused({"render", file("sheet_####.obj"), "--solve", "--body", body, "-o", file("frames")});
+  };
+  EXPECT_THAT(error("bax"), HasSubstr("--body bax: there is no such file"));
+  write_text(folder_ / "open.obj", box + "f 1 3 4 2\n");
+  EXPECT_THAT(error(file("open.obj")), HasSubstr("open.obj"));
+  EXPECT_THAT(error("red"), HasSubstr("--body red"));  // a part of the sheet, which is open
+}
+
 // What is wrong with the outputs is told before anything is solved.
 TEST_F(SolvedDoor, WhatIsWrongIsToldBeforeTheLongPart) {
   write_sheets(2);

@@ -109,6 +109,30 @@ TEST(WrinkleSolve, WhatIsBelowRoundingHasConverged) {
   EXPECT_LT(solution.kkt, 1e-6);
 }
 
+// No wave is higher than the room at its vertex, also where the whole field is searched for; what is bounded
+// has more energy, and elsewhere waves stay.
+TEST(WrinkleSolve, RoomBoundsTheWaves) {
+  const Grid grid(0.4, 0.3, 6, 5);
+  const auto topology = shell::build_topology(grid.faces, static_cast<std::size_t>(grid.rest.cols()));
+  auto forms = test::prescribed(
+      grid, [](const Eigen::Vector3d&) { return diagonal(0.02, -0.1); },
+      [](const Eigen::Vector3d&) { return diagonal(2, 0); });
+  const std::vector<bool> none(grid.faces.size(), false);
+  const Field free = solve_field(topology, forms, material, none);
+  const double highest = free.whole.waves.amplitude.maxCoeff();
+  VectorXd room = VectorXd::Constant(grid.rest.cols(), INFINITY);
+  for (Eigen::Index v = 0; v < room.size(); ++v)
+    if (grid.rest(0, v) < 0.2) room[v] = 0.3 * highest;
+  for (std::size_t f = 0; f < forms.size(); ++f)
+    for (std::size_t c = 0; c < 3; ++c) forms[f].room[c] = room[topology.faces[f][c]];
+  const Field bounded = solve_field(topology, forms, material, none);
+  ASSERT_TRUE(bounded.real.converged && bounded.whole.converged);
+  // Bounds are kept to rounding of the scale that amplitudes are solved in.
+  EXPECT_LE((bounded.whole.waves.amplitude - room).maxCoeff(), 1e-12);
+  EXPECT_GT(bounded.whole.waves.amplitude.maxCoeff(), 0.5 * highest);
+  EXPECT_GT(bounded.whole.energy, free.whole.energy);
+}
+
 TEST(WrinkleSolve, NoFaceIsCompressed) {
   const Grid grid(0.4, 0.3, 6, 5);
   const auto forms = test::prescribed(
