@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -154,7 +155,7 @@ class Walls {
   // searches longer, less makes more of them.
   Walls(const std::vector<HalfSpace>& walls, const Positions& pose, const VectorXd& stiffness)
       : walls_(walls), multiplier_(walls.size(), 0), stiffness_(walls.size(), 0), distance_(walls.size(), 0) {
-    constexpr double times = 20;
+    constexpr double times = 4;
     VectorXd load = VectorXd::Zero(stiffness.size());
     for (std::size_t k = 0; k < walls.size(); ++k) {
       double give = 0;
@@ -172,6 +173,8 @@ class Walls {
       distance_[k] = walls[k].normal.dot(at) - walls[k].least;
     }
   }
+
+  const std::vector<double>& stiffness() const { return stiffness_; }
 
   double beyond(std::size_t k, const Positions& moved) const {
     double distance = distance_[k];
@@ -205,6 +208,71 @@ class Walls {
  private:
   const std::vector<HalfSpace>& walls_;
   std::vector<double> multiplier_, stiffness_, distance_;  // the last: where nothing has moved
+};
+
+// The metric with walls: the known matrix for each coordinate, and the walls' stiffness across them.
+class WallMetric {
+ public:
+  WallMetric(const Eigen::SparseMatrix<double>& metric, const std::vector<bool>& free,
+             const std::vector<HalfSpace>& walls, const std::vector<double>& stiffness) {
+    std::vector<Triplet> pattern;
+    const auto count = metric.cols();
+    for (Index column = 0; column < count; ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(metric, column); it; ++it)
+        pattern.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), 1.0);
+    for (const HalfSpace& wall : walls)
+      for (const auto& [u, a] : wall.of)
+        for (const auto& [v, b] : wall.of)
+          pattern.emplace_back(static_cast<int>(u), static_cast<int>(v), 1.0);
+    Eigen::SparseMatrix<double> joined(count, count);
+    joined.setFromTriplets(pattern.begin(), pattern.end());
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    Eigen::AMDOrdering<int>()(joined, order);
+    row_.assign(static_cast<std::size_t>(count), -1);
+    Index next = 0;
+    for (Index k = 0; k < count; ++k)
+      if (const int v = order.indices()[k]; free[static_cast<std::size_t>(v)]) {
+        row_[static_cast<std::size_t>(v)] = next;
+        next += 3;
+      }
+    size_ = next;
+    std::vector<Triplet> entries;
+    const auto add = [&](Index u, Index v, int i, int j, double value) {
+      const Index r = row_[static_cast<std::size_t>(u)] + i, c = row_[static_cast<std::size_t>(v)] + j;
+      if (row_[static_cast<std::size_t>(u)] >= 0 && row_[static_cast<std::size_t>(v)] >= 0 && r >= c)
+        entries.emplace_back(static_cast<int>(r), static_cast<int>(c), value);
+    };
+    for (Index column = 0; column < count; ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(metric, column); it; ++it)
+        for (int i = 0; i < 3; ++i) add(it.row(), column, i, i, it.value());
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      for (const auto& [u, a] : walls[k].of)
+        for (const auto& [v, b] : walls[k].of)
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              add(u, v, i, j, stiffness[k] * a * b * walls[k].normal[i] * walls[k].normal[j]);
+    for (Index r = 0; r < size_; ++r) entries.emplace_back(static_cast<int>(r), static_cast<int>(r), 0.0);
+    Eigen::SparseMatrix<double> lower(size_, size_);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    cholesky_.analyse(lower);
+    cholesky_.factorise(lower);  // definite as the metric itself: walls add squares
+  }
+
+  Positions solve(const Positions& right) const {
+    VectorXd own(size_);
+    for (std::size_t v = 0; v < row_.size(); ++v)
+      if (row_[v] >= 0) own.segment<3>(row_[v]) = right.col(static_cast<Index>(v));
+    own = cholesky_.solve(own);
+    Positions result = Positions::Zero(3, right.cols());
+    for (std::size_t v = 0; v < row_.size(); ++v)
+      if (row_[v] >= 0) result.col(static_cast<Index>(v)) = own.segment<3>(row_[v]);
+    return result;
+  }
+
+ private:
+  std::vector<Index> row_;  // of each vertex' first coordinate, −1 where it is held
+  Index size_ = 0;
+  Cholesky cholesky_;
 };
 
 // The rotation nearest to a matrix.
@@ -282,9 +350,8 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
   const Eigen::SparseMatrix<double> smoothing =
       form_ + Eigen::SparseMatrix<double>((tether_ * areas_).asDiagonal());
   smoothing_.emplace(smoothing, free_);
-  const Eigen::SparseMatrix<double> metric = smoothing + membrane(topology_, rest_, material_);
-  metric_.emplace(metric, free_);
-  stiffness_ = metric.diagonal();
+  matrix_ = smoothing + membrane(topology_, rest_, material_);
+  metric_.emplace(matrix_, free_);
 
   if (rest_positions.size() == 0) return;
   rest_curvature_ = rest_positions * curvature_.transpose();
@@ -396,10 +463,11 @@ Followed Follower::follow(const Positions& pose, const Positions* start,
     result.iterations = minimum.iterations;
   } else {
     // Early searches need not end: what they are for changes with the multipliers.
-    constexpr int most_rounds = 40, early = 8, early_steps = 15;
+    constexpr int most_rounds = 40, early = 4, early_steps = 12;
     search.memory = 20;
     search.tolerance = 1e-6 * settings_.wavelength;
-    Walls walls(outside, pose, stiffness_);
+    Walls walls(outside, pose, matrix_.diagonal());
+    const WallMetric with_walls(matrix_, free_, outside, walls.stiffness());
     minimum.x = moved;
     for (int round = 0; round < most_rounds && !result.converged && !interrupted(); ++round) {
       search.max_iterations = round < early ? early_steps : settings_.max_iterations;
@@ -412,7 +480,7 @@ Followed Follower::follow(const Positions& pose, const Positions* start,
               if (!free_[static_cast<std::size_t>(v)]) sum.gradient.col(v).setZero();
             return sum;
           },
-          metric, search);
+          [&](const Positions& gradient) { return with_walls.solve(gradient); }, search);
       result.iterations += minimum.iterations;
       result.converged = walls.take(minimum.x) <= 1e-4 * settings_.wavelength && minimum.converged;
     }

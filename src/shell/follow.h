@@ -100,7 +100,7 @@ class Follower {
       frames_;                        // of each rest face in space: its axes u, v and its normal; empty: flat
   Eigen::SparseMatrix<double> form_;  // their sum of squares, V×V, N/m
   std::optional<VertexSolver> smoothing_, metric_;  // bending and tether; and the membrane
-  Eigen::VectorXd stiffness_;                       // of the latter at each vertex, N/m
+  Eigen::SparseMatrix<double> matrix_;              // of the latter, V×V, N/m
 };
 
 }  // namespace plisse::shell
