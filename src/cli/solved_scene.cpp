@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <optional>
 
 #include "base/atomic_file.h"
@@ -21,6 +22,8 @@ ordered_json to_json(const cloth::SolvedFrame& frame) {
                        {"length_kept", frame.followed.length_kept},
                        {"compression", frame.taken.compression},
                        {"untaken", frame.taken.untaken},
+                       {"crest_angle_deg", 180 / std::numbers::pi * frame.taken.crest_angle},
+                       {"where_compressed", frame.taken.where_compressed},
                        {"waves", frame.waves},
                        {"wavelength_m", frame.taken.wavelength},
                        {"max_amplitude_m", frame.max_amplitude},

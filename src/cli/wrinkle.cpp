@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -302,6 +303,8 @@ ordered_json to_json(const cloth::WrinkleSequenceReport& report) {
                       {"max_amplitude_m", frame.max_amplitude},
                       {"compression", frame.taken.compression},
                       {"untaken", frame.taken.untaken},
+                      {"crest_angle_deg", 180 / std::numbers::pi * frame.taken.crest_angle},
+                      {"where_compressed", frame.taken.where_compressed},
                       {"wavelength_m", frame.taken.wavelength},
                       {"wrinkle_free_faces", frame.wrinkle_free_faces},
                       {"energy_J", solved.energy},

@@ -24,8 +24,9 @@ struct KnownField {
 void members(auto& a, Is<KnownField> auto& value) {
   auto& [drawn, waves, max_amplitude, solve_s, taken, converged, reason] = value;
   auto& [base, amplitude, phase] = drawn;
-  auto& [compression, untaken, wavelength] = taken;
-  a(amplitude, phase, waves, max_amplitude, solve_s, compression, untaken, wavelength, converged, reason);
+  auto& [compression, untaken, wavelength, crest_angle, where_compressed] = taken;
+  a(amplitude, phase, waves, max_amplitude, solve_s, compression, untaken, wavelength, crest_angle,
+    where_compressed, converged, reason);
 }
 
 namespace {

@@ -1,16 +1,34 @@
 #include "wrinkle/take_up.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace plisse::wrinkle {
+namespace {
+
+// Of values with weights; `sum`: of these.
+double median(std::vector<std::pair<double, double>> values, double sum) {
+  std::sort(values.begin(), values.end());
+  double below = 0, middle = 0;
+  for (const auto& [value, weight] : values) {
+    below += weight;
+    middle = value;
+    if (below >= sum / 2) break;
+  }
+  return middle;
+}
+
+}  // namespace
 
 TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& forms,
                const shell::Material& material, const CoarseField& field) {
   TakeUp result;
   double area = 0, all = 0, taken = 0, height = 0;
-  std::vector<std::pair<double, double>> frequencies;  // |ω|, weight
+  double wavy = 0, squares = 0, compressed = 0;
+  std::vector<std::pair<double, double>> frequencies, angles;  // |ω|, radians; their weights
   for (std::size_t f = 0; f < forms.size(); ++f) {
     const PrincipalStrain strain = principal_strain(forms[f]);
     const double across =
@@ -19,7 +37,8 @@ TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& fo
     const auto& t = topology.faces[f];
     const Eigen::Vector3d a(field.amplitude[t[0]], field.amplitude[t[1]], field.amplitude[t[2]]),
         phase(field.phase[f][0], field.phase[f][1], field.phase[f][2]);
-    const double frequency = (forms[f].rest.gradients * phase).norm();
+    const Eigen::Vector2d gradient = forms[f].rest.gradients * phase;
+    const double frequency = gradient.norm();
     const double square = (a.squaredNorm() + a.sum() * a.sum()) / 12;  // mean of a² over the face
     const double waves = square * frequency * frequency;
     area += face;
@@ -28,16 +47,17 @@ TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& fo
     if (!(waves > 0)) continue;
     frequencies.emplace_back(frequency, face * waves);
     height += face * waves;
+    angles.emplace_back(std::acos(std::min(std::abs(gradient.dot(strain.wave)) / frequency, 1.0)), face);
+    wavy += face;
+    squares += face * square;
+    if (strain.compression < 0) compressed += face * square;
   }
   result.compression = area > 0 ? all / area : 0;
   result.untaken = all > 0 ? 1 - taken / all : 0;
-  std::sort(frequencies.begin(), frequencies.end());
-  double below = 0;
-  for (const auto& [frequency, weight] : frequencies) {
-    below += weight;
-    result.wavelength = 2 * std::numbers::pi / frequency;
-    if (below >= height / 2) break;
-  }
+  if (frequencies.empty()) return result;
+  result.wavelength = 2 * std::numbers::pi / median(std::move(frequencies), height);
+  result.crest_angle = median(std::move(angles), wavy);
+  result.where_compressed = compressed / squares;
   return result;
 }
 

@@ -32,7 +32,27 @@ TEST(TakeUp, PlaneWavesTakeHalfTheirSquaredSlope) {
     EXPECT_NEAR(taken.compression, squeeze, 1e-12);
     EXPECT_NEAR(taken.untaken, std::max(1 - share, 0.0), 1e-12) << share;  // no more than there is
     EXPECT_NEAR(taken.wavelength, share > 0 ? 0.2 : 0, 1e-12);
+    EXPECT_NEAR(taken.crest_angle, 0, 1e-7);  // an arc cosine near 1
+    EXPECT_EQ(taken.where_compressed, 1);
   }
+  // Waves that travel 20 degrees off the compression; and a third of the area where there is none.
+  auto turned_forms = forms;
+  const double turn = 20 * M_PI / 180;
+  double calm = 0, all = 0;
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto x = surface.positions.col(surface.topology.faces[f][c]);
+      field.phase[f][c] = frequency * (std::cos(turn) * x.x() / pressed + std::sin(turn) * x.y());
+    }
+    all += forms[f].rest.area;
+    if (f % 3 != 0) continue;
+    turned_forms[f].strain = Eigen::Matrix2d::Identity() * 0.01;
+    turned_forms[f].strain(1, 1) = 0.02;  // so that it has directions
+    calm += forms[f].rest.area;
+  }
+  const TakeUp turned = take_up(surface.topology, turned_forms, cloth, field);
+  EXPECT_NEAR(turned.crest_angle, turn, 1e-9);
+  EXPECT_NEAR(turned.where_compressed, 1 - calm / all, 1e-12);
 }
 
 // What is compressed along the crests no wave takes up.
