@@ -13,6 +13,7 @@ layout(std430, binding = 4) buffer Counter { uint fresh_count, all_idle, any_hei
 uniform uint vertex_count;
 uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
+uniform bool unstrained;  // M = E: only the bias shortens
 
 const float floor_of_r = 0.05;         // r_min
 const float isotropy = 0.01;           // below this g a direction is uncertain
@@ -26,7 +27,7 @@ void main() {
     // M = (Σ v'⊗v + μE)(S + μE)⁻¹ = E + Σ (v' − v)⊗(S + μE)⁻¹v, its rows in m0 and m1: errors are then in proportion to the
     // deformation, however slender the triangles.
     vec2 m0 = vec2(1.0, 0.0), m1 = vec2(0.0, 1.0);
-    uint end = offset(v + 1u);
+    uint end = unstrained ? offset(v) : offset(v + 1u);
     for (uint i = offset(v); i < end; ++i) {
         vec3 e = position(neighbour(i)) - x;
         vec4 rest = texelFetch(rest_rows, int(i));

@@ -134,7 +134,7 @@ void bias_keys(Row& row) {
       "cosine as it was solved, carried by the surface, with the animation's own waves on top (direct).");
 }
 
-enum class SolveMethod { direct, passes };
+enum class SolveMethod { direct, bias, passes };
 enum class SolveQuality { draft, final };
 
 // Wrinkles that are solved for (docs/wrinkle.md, "Any moving mesh"): a scene with this table is solved before
@@ -154,10 +154,15 @@ template <typename Row>
 void solve_keys(Row& row) {
   using S = SolveSettings;
   row("method", &S::method,
-      enumeration<SolveMethod>({{"direct", SolveMethod::direct}, {"passes", SolveMethod::passes}}),
-      "What is drawn on the base surface that follows the model: its solved field (direct), or the waves of "
-      "crush and relax against its rest pose, which cost less (passes).",
-      {"--method", "direct|passes"});
+      enumeration<SolveMethod>(
+          {{"direct", SolveMethod::direct}, {"bias", SolveMethod::bias}, {"passes", SolveMethod::passes}}),
+      "What is drawn on the base surface that follows the model: its solved field (direct); the waves of "
+      "crush "
+      "and relax, with the field of each frame's base as its bias, so that heights, directions and lengths "
+      "are "
+      "the field's and phases relax's (bias); or the waves of crush and relax against the rest pose, which "
+      "cost less (passes).",
+      {"--method", "direct|bias|passes"});
   row("quality", &S::quality,
       enumeration<SolveQuality>({{"draft", SolveQuality::draft}, {"final", SolveQuality::final}}),
       "Fields between the clip's keys are interpolated (draft), or solved as well (final).",

@@ -29,6 +29,9 @@ struct VertexWaves {
   // start without; and their phases, radians. Empty: none.
   std::vector<glm::dvec3> start_direction = {};
   std::vector<double> start_phase = {};
+  // What the animation does to the cloth has no part in its waves: `bias` is of each pose itself, tangent to
+  // it, as W is.
+  bool unstrained = false;
   std::vector<FieldTriangle> field = {};  // one a triangle of the surface, or none
 };
 

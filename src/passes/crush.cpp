@@ -6,7 +6,7 @@ namespace plisse::passes {
 
 CrushPass::CrushPass(const std::string& shader_folder) : crush_({"crush.comp"}, {}, shader_folder) {}
 
-void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set) {
+void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set, bool unstrained) {
   const std::uint32_t none_fresh_all_idle_all_flat[] = {0, always_set ? 0U : 1U, 0};
   surface.counter.write(none_fresh_all_idle_all_flat, sizeof none_fresh_all_idle_all_flat);
   surface.bind_for_reading();
@@ -21,6 +21,7 @@ void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set) 
   glUniform1ui(crush_.uniform("vertex_count"), static_cast<GLuint>(surface.vertex_count));
   glUniform1f(crush_.uniform("dead_zone"), static_cast<float>(dead_zone));
   glUniform1i(crush_.uniform("always_set"), always_set);
+  glUniform1i(crush_.uniform("unstrained"), unstrained);
   gpu::dispatch(crush_, surface.vertex_count);
 }
 

@@ -13,9 +13,9 @@ class CrushPass {
  public:
   explicit CrushPass(const std::string& shader_folder);
   // Reads positions and frames; advances states, waves, world_waves and the status in phases. always_set:
-  // relax mode `descent`, in which every vertex has a phase. Leaves the number of fresh vertices in
-  // surface.counter.
-  void run(SurfaceBuffers& surface, double dead_zone, bool always_set);
+  // relax mode `descent`, in which every vertex has a phase. unstrained: VertexWaves::unstrained. Leaves the
+  // number of fresh vertices in surface.counter.
+  void run(SurfaceBuffers& surface, double dead_zone, bool always_set, bool unstrained = false);
 
  private:
   gpu::Program crush_;

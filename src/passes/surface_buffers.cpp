@@ -48,6 +48,14 @@ glm::vec2 bias_in_frame(const glm::dvec3& p, const glm::dvec3& t, const glm::dve
   return glm::vec2(length > 0.99 ? q * (0.99 / length) : q);
 }
 
+// W, mask, D of a vertex.
+glm::vec4 constants_of(const VertexWaves& waves, const RestFrames& rest, const ModelUnits& units,
+                       std::size_t v) {
+  const glm::dvec3 &wander = waves.wander[v], &t = rest.tangent[v];
+  return {waves.wavelength[v] / units.metres, waves.mask[v], glm::dot(wander, t),
+          glm::dot(wander, glm::cross(rest.normal[v], t))};
+}
+
 bool has_colours(const Surface& surface) {
   return std::any_of(surface.parts.begin(), surface.parts.end(),
                      [](const Part& part) { return part.has_colours; });
@@ -119,10 +127,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
       const glm::dvec2 edge = rest.edge[i], row = inverse * edge;  // metres, 1/metres
       rows[i] = glm::vec4(row * units.metres, edge / units.metres);
     }
-    const glm::dvec3 wander = vertex_waves.wander[v];
-    return glm::vec4(vertex_waves.wavelength[v] / units.metres, vertex_waves.mask[v],
-                     glm::dot(wander, rest.tangent[v]),
-                     glm::dot(wander, glm::cross(rest.normal[v], rest.tangent[v])));
+    return constants_of(vertex_waves, rest, units, v);
   }));
   rest_rows = gpu::Buffer(rows);
   biases = gpu::Buffer(mapped(count, [&](std::size_t v) {
@@ -210,6 +215,14 @@ bool SurfaceBuffers::any_height() const {
   std::uint32_t any = 0;
   counter.read(&any, sizeof any, 2 * sizeof any);
   return any != 0;
+}
+
+void SurfaceBuffers::take_bias(const VertexWaves& given, const RestFrames& rest, const RestFrames& posed,
+                               const ModelUnits& units) {
+  constants.write(mapped(vertex_count, [&](std::size_t v) { return constants_of(given, rest, units, v); }));
+  biases.write(mapped(vertex_count, [&](std::size_t v) {
+    return bias_in_frame(given.bias[v], posed.tangent[v], posed.normal[v]);
+  }));
 }
 
 void SurfaceBuffers::carry(const std::vector<FieldTriangle>& of, const ModelUnits& units) {

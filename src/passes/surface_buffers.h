@@ -43,6 +43,10 @@ struct SurfaceBuffers {
   gpu::Buffer phases_next, counter;
   bool any_height() const;
 
+  // The bias and the wavelengths of another pose, whose frames are `posed` (VertexWaves::unstrained).
+  void take_bias(const VertexWaves& waves, const RestFrames& rest, const RestFrames& posed,
+                 const ModelUnits& units);
+
   // For shaders/common/surface.glsl to fetch from. `phases` alone where relax has swapped them.
   void bind_for_reading() const;
   void bind_phases_for_reading() const;

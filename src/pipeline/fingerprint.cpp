@@ -111,6 +111,11 @@ void add_pose(Hash& hash, const scene::Pose& pose) {
   add_items(hash, pose.cache);
 }
 
+void add_solved(Hash& hash, const SolvedClip::Frame& frame) {
+  add_items(hash, frame.amplitude);
+  add_items(hash, frame.phase);
+}
+
 void add_field(Hash& hash, const std::vector<FieldTriangle>& field) {
   add_items(hash, field);
 }

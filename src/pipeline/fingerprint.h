@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "mesh/solved_clip.h"
 #include "mesh/vertex_waves.h"
 #include "passes/render.h"
 #include "scene/animation.h"
@@ -20,6 +21,7 @@ Hash constants_hash(const LoadedScene& scene);
 
 void add_pose(Hash& hash, const scene::Pose& pose);
 void add_field(Hash& hash, const std::vector<FieldTriangle>& field);
+void add_solved(Hash& hash, const SolvedClip::Frame& frame);  // its field
 void add_view(Hash& hash, const passes::View& view);
 
 }  // namespace plisse::pipeline

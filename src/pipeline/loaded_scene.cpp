@@ -66,7 +66,7 @@ LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemo
                                        given.wrinkles.fine_share)),
       smooth_levels_(smooth) {
   if (config::uv_rest_choice(settings.model.rest) &&
-      !(settings.solve.on && settings.solve.method == config::SolveMethod::direct))
+      !(settings.solve.on && settings.solve.method != config::SolveMethod::passes))
     throw Error(ExitCode::bad_input,
                 fmt::format("rest '{}': flat panels are the rest shape of solved wrinkles only: add --solve, "
                             "or take another",
@@ -147,6 +147,13 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
   has_solved_waves_ =
       std::ranges::any_of(solved_->frames, [](const auto& frame) { return !frame.amplitude.empty(); });
   if (!has_solved_waves_) return;
+  if (settings.solve.method == config::SolveMethod::bias) {
+    has_solved_waves_ = false;  // they are crush's and relax's
+    waves.unstrained = true;
+    own_wavelength_ = waves.wavelength;
+    bias_from(1, scene::posed(surface(), posed_at(animation, 1).drawn));
+    return;
+  }
   std::vector<bool> cloth = deforming(*solved_, surface().rest);
   const std::vector<bool> soft = smooth_at_rest(*solved_, surface());
   for (std::size_t f = 0; f < cloth.size(); ++f) cloth[f] = cloth[f] && soft[f];
@@ -155,6 +162,35 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
   std::fill(waves.mask.begin(), waves.mask.end(), 0.0);
   waves.field = field_at({}, 1);
   field_frame_ = 1;
+}
+
+RestFrames LoadedScene::bias_from(int frame, const std::vector<glm::dvec3>& places) {
+  const SolvedClip::Frame& solved = solved_->frames.at(static_cast<std::size_t>(frame - 1));
+  Surface base = surface();
+  base.rest = places;
+  // The frames that the passes have: tangents as in the rest pose.
+  RestFrames posed = rest_frames(base);
+  posed.tangent_neighbour = rest.tangent_neighbour;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    const glm::dvec3 &n = posed.normal[v], e = places[rest.tangent_neighbour[v]] - places[v],
+                     along = e - glm::dot(e, n) * n;
+    if (glm::dot(along, along) > 1e-12 * glm::dot(e, e)) posed.tangent[v] = glm::normalize(along);
+  }
+  paint::SurfaceField field;
+  field.amplitude.assign(places.size(), 0);
+  field.phase.assign(base.triangle_count(), {0, 0, 0});
+  for (std::size_t v = 0; v < solved.amplitude.size(); ++v) {
+    double& height = field.amplitude[solved_->welded[v]];
+    height = std::max(height, solved.amplitude[v]);
+  }
+  for (std::size_t f = 0; f < solved.phase.size(); ++f) field.phase[solved_->triangle[f]] = solved.phase[f];
+  waves.wavelength = own_wavelength_;
+  paint::field_as_bias(base, posed, field, settings.wrinkles.dead_zone, waves);
+  return posed;
+}
+
+RestFrames LoadedScene::take_bias(int step) {
+  return bias_from(frame_of_step(step), scene::posed(surface(), pose(step)));
 }
 
 void LoadedScene::smooth_all() {
@@ -321,6 +357,8 @@ void LoadedScene::extend(int step) {
     poses_.push_back(posed_at(animation, frame_of_step(next)));
     Hash hash = chain_.empty() ? state_base_ : chain_.back();
     add_pose(hash, poses_.back().drawn);
+    if (has_bias_a_frame())
+      add_solved(hash, solved_->frames.at(static_cast<std::size_t>(frame_of_step(next) - 1)));
     chain_.push_back(hash);
   }
 }

@@ -56,6 +56,11 @@ class LoadedScene {
   // another surface than that frame's.
   bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_; }
   void take_field(int step);
+  // Whether every frame has its own bias, of the base surface that is its pose; waves has that of the last
+  // step that was taken, at first frame 1's. The pose of the step must be available. Gives the frames that
+  // the bias is tangent to.
+  bool has_bias_a_frame() const { return waves.unstrained; }
+  RestFrames take_bias(int step);
   // The carried field of each frame of the clip, in one call each; no call where there is none.
   void visit_fields(const std::function<void(const std::vector<FieldTriangle>&)>& work) const;
 
@@ -85,6 +90,7 @@ class LoadedScene {
   void take_field(const io::WrinkleField& field, const glm::dmat4& to_world, const std::string& name);
   void take_frame_fields(FrameFields fields);
   void take_solved(const scene::InMemory& memory);
+  RestFrames bias_from(int frame, const std::vector<glm::dvec3>& places);
   // The animation's pose of a frame, or what was solved in its place.
   Posed posed_at(scene::Animation& posing, int frame) const;
   std::vector<FieldTriangle> field_at(const std::vector<glm::dvec3>& coarse, int frame) const;
@@ -99,7 +105,8 @@ class LoadedScene {
   std::optional<SmoothSurface> smooth_;
   FrameFields fields_;  // one a frame, or none
   std::shared_ptr<const SolvedClip> solved_;
-  std::vector<double> field_mask_;  // strength of each welded vertex, of fields
+  std::vector<double> own_wavelength_;  // W where a bias of frames has none
+  std::vector<double> field_mask_;      // strength of each welded vertex, of fields
   bool has_solved_waves_ = false;
   int field_frame_ = 0;
   paint::Screen screen(const config::PaintStroke& stroke) const;

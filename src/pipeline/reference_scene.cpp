@@ -72,12 +72,18 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   }
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
+  crush.unstrained = scene.waves.unstrained;
   crush.smooth = settings.relax.mode == config::RelaxMode::smooth;
   relax.smooth = crush.smooth;
   relax.descent_rounds = settings.relax.rounds;
   relax.epsilon = settings.relax.epsilon;
   relax.onset_rounds = settings.relax.onset_rounds;
   relax.smoothing_rounds = settings.relax.smoothing_rounds;
+}
+
+void ReferenceScene::take_bias() {
+  wavelength = vector(scene.waves.wavelength, 1 / scene.units.metres);
+  bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
 }
 
 reference::SkinPose ReferenceScene::pose(const scene::Pose& pose) const {

@@ -17,6 +17,8 @@ namespace plisse::pipeline {
 // Everything in model units, as in the passes.
 struct ReferenceScene {
   explicit ReferenceScene(const LoadedScene& scene);
+  // What the scene's waves have become, where each frame has its own bias.
+  void take_bias();
   reference::SkinPose pose(const scene::Pose& pose) const;    // palette and morph weights
   Eigen::Matrix3Xd positions(const scene::Pose& pose) const;  // x', from bones or cache
   reference::Frames frames(const scene::Pose& pose, const Eigen::Matrix3Xd& positions) const;

@@ -58,7 +58,8 @@ void Stepper::skin(const scene::Pose& pose) {
 
 void Stepper::crush() {
   timer_.begin("crush");
-  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, settings_.mode == config::RelaxMode::descent);
+  crush_.run(surface_, scene_.settings.wrinkles.dead_zone, settings_.mode == config::RelaxMode::descent,
+             scene_.waves.unstrained);
   timer_.end();
 }
 
@@ -120,6 +121,10 @@ bool Stepper::advance_to(int step) {
       ++masked_steps_;
       crushed_pose_ = pose;
     } else if (crushes) {
+      if (scene_.has_bias_a_frame()) {
+        const RestFrames posed = scene_.take_bias(step_);
+        surface_.take_bias(scene_.waves, scene_.rest, posed, scene_.units);
+      }
       crush();
       observe(Stage::crushed);
       if (share > 0) relax_.begin_as(surface_, remembered_phases_, remembered_states_);

@@ -67,7 +67,7 @@ bool status_hangs_on_rounding(const reference::CrushResult& vertex, double dead_
 
 }  // namespace
 
-WaveComparison::WaveComparison(LoadedScene& scene, const ReferenceScene& reference, Stepper& stepper,
+WaveComparison::WaveComparison(LoadedScene& scene, ReferenceScene& reference, Stepper& stepper,
                                const std::string& shader_folder)
     : scene_(scene),
       reference_(reference),
@@ -98,6 +98,7 @@ void WaveComparison::after_step(int step) {
   std::vector<Eigen::Vector2d> directions;
   for (const glm::vec4& state : stepper_.surface().states.read<glm::vec4>())
     directions.push_back(Eigen::Vector2f(state.x, state.y).cast<double>());
+  if (scene_.has_bias_a_frame()) reference_.take_bias();
   chain_.step(step, pose_, stepper_.crush_runs_at(step), directions);
 }
 
@@ -109,6 +110,7 @@ void WaveComparison::observe(Stepper::Stage stage) {
       compare_skin(now);
       break;
     case Stepper::Stage::crushed:
+      if (scene_.has_bias_a_frame()) reference_.take_bias();
       compare_crush(now);
       break;
     case Stepper::Stage::begun:

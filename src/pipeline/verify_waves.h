@@ -15,7 +15,7 @@ namespace plisse::pipeline {
 class WaveComparison {
  public:
   // Compares what `stepper` does. All three outlive this.
-  WaveComparison(LoadedScene& scene, const ReferenceScene& reference, Stepper& stepper,
+  WaveComparison(LoadedScene& scene, ReferenceScene& reference, Stepper& stepper,
                  const std::string& shader_folder);
 
   // To be called before a step; `looking`: whether its passes are compared.
@@ -42,7 +42,7 @@ class WaveComparison {
                     double share);
 
   LoadedScene& scene_;
-  const ReferenceScene& reference_;
+  ReferenceScene& reference_;
   Stepper& stepper_;
   ReferenceChain chain_;
   passes::RelaxPass scratch_relax_;

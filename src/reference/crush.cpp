@@ -94,6 +94,12 @@ std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_fram
   std::vector<CrushResult> results;
   results.reserve(static_cast<std::size_t>(topology.size()));
   for (Index vertex = 0; vertex < topology.size(); ++vertex) {
+    if (settings.unstrained) {
+      const Matrix2d M = biased(Matrix2d::Identity(), frames.basis(vertex), bias.col(vertex));
+      results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings,
+                                     previous[static_cast<std::size_t>(vertex)]));
+      continue;
+    }
     const auto neighbours = row(topology.neighbours, vertex);
     Matrix2Xd v(2, neighbours.size()), posed(2, neighbours.size());
     Index column = 0;

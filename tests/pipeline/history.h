@@ -11,8 +11,9 @@ namespace plisse::pipeline {
 // Needs a current context.
 struct History {
   // `smooth`: LoadedScene's.
-  explicit History(const config::SceneSettings& settings, int smooth = LoadedScene::most_smooth)
-      : scene(settings, {}, smooth), timer(true), stepper(scene, timer, "") {}
+  explicit History(const config::SceneSettings& settings, int smooth = LoadedScene::most_smooth,
+                   const scene::InMemory& memory = {})
+      : scene(settings, memory, smooth), timer(true), stepper(scene, timer, "") {}
   test::Readings at(int frame) {
     stepper.advance_to(scene.step_of_frame(frame));
     return test::read(stepper.surface());

@@ -136,6 +136,15 @@ TEST_F(WrinkleModel, RenderSolvesInOneRun) {
   EXPECT_NE(base.find("v 0.5 0 0.4"), std::string::npos);
   ASSERT_EQ(run({"verify", "--frames", "2,4", "--size", "96x80"}).code, 0);
 
+  // The field as bias of the passes: shaders and reference over all frames, and any frame alone.
+  ASSERT_EQ(run({"verify", "--frames", "2,4", "--size", "96x80", "--method", "bias"}).code, 0);
+  ASSERT_EQ(run({"render", "--size", "96x80", "--method", "bias", "-o", file("bias")}).code, 0);
+  ASSERT_EQ(
+      run({"render", "--size", "96x80", "--frames", "4", "--method", "bias", "-o", file("bias_alone")}).code,
+      0);
+  EXPECT_TRUE(read_text(folder_ / "bias_alone/frame_0004.png") == read_text(folder_ / "bias/frame_0004.png"));
+  EXPECT_FALSE(read_text(folder_ / "bias/frame_0004.png") == read_text(folder_ / "whole/frame_0004.png"));
+
   // Passes in place of the field, and the same in a scene.
   ASSERT_EQ(
       run({"render", "--size", "96x80", "--frames", "4", "--method", "passes", "-o", file("passes")}).code,
