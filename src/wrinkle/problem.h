@@ -43,8 +43,8 @@ class Problem {
 
   // Largest amplitudes, in the scale, one a free amplitude: √(2s₀)/|ω| of the patch's strongest compression
   // and of one wave over the patch's diameter. Longer waves belong to the shape of the base surface; where
-  // nothing else limits the wavelength (flat, free boundary), the energy alone has no minimum. And at most the
-  // room that the forms of the faces leave.
+  // nothing else limits the wavelength (flat, free boundary), the energy alone has no minimum. And at most
+  // the room that the forms of the faces leave.
   const Eigen::VectorXd& upper() const { return upper_; }
 
   // Unknowns in one vector, all dimensionless: free amplitudes over the scale, phases, periods.

@@ -242,6 +242,12 @@ TEST_F(WrinkleModel, SolveSaysWhatIsWrong) {
   }
   other.close();
   EXPECT_THAT(error({"--solve", "--rest", file("small.obj")}), HasSubstr("times as large as its rest shape"));
+  // One that has other vertices, and a frame with other faces.
+  std::ofstream(folder_ / "other.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_THAT(error({"--solve", "--rest", file("other.obj")}), HasSubstr("they must be the same mesh"));
+  std::filesystem::copy(folder_ / "other.obj", folder_ / "sheet_0003.obj");
+  EXPECT_THAT(error({"--solve"}), HasSubstr("sheet_0003.obj"));
+  std::filesystem::remove(folder_ / "sheet_0003.obj");
   std::ofstream(folder_ / "bias.toml") << "[model]\npath = \"sheet_####.obj\"\n[bias]\nfield = "
                                           "\"field_####.ply\"\nuse = \"direct\"\n[solve]\n";
   EXPECT_THAT(plisse({"render", file("bias.toml")}).err, HasSubstr("stands beside [solve]"));
