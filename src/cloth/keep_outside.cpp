@@ -125,6 +125,7 @@ KeptOutside follow_outside(const shell::Follower& follower, const ShellPoints& p
     if (walls.size() == before) break;
     const shell::Positions start = result.followed.base;
     result.followed = follower.follow(pose, &start, walls);
+    if (!result.followed.converged) break;  // more walls leave less way
   }
   return result;
 }

@@ -1,9 +1,11 @@
 #include "pipeline/loaded_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -29,6 +31,21 @@ namespace {
 scene::AnimationChoice choice_of(const config::SceneSettings& scene) {
   const config::ModelSettings& model = scene.model;
   return {model.clip, model.frames_per_second, model.rest, model.loop, scene.limits};
+}
+
+// Solved waves are cosines as they were solved; `where`: what the passes' settings have no part in.
+void warn_of_unused(const config::WrinkleSettings& wrinkles, std::string_view where) {
+  const config::WrinkleSettings plain;
+  std::vector<std::string_view> unused;
+  for (const auto& [given, name] : {std::pair{wrinkles.profile != plain.profile, "profile"},
+                                    {wrinkles.fine > 0, "fine"},
+                                    {wrinkles.irregularity > 0, "irregularity"},
+                                    {!wrinkles.wavelength_map.empty(), "wavelength_map"}})
+    if (given) unused.emplace_back(name);
+  if (!unused.empty())
+    log::warn(
+        fmt::format("{} of [wrinkles] {} no part in {}; method = \"bias\" of [solve] has a use for them",
+                    fmt::join(unused, ", "), unused.size() == 1 ? "has" : "have", where));
 }
 
 scene::Animation::Bounds bounds_of(const std::vector<glm::dvec3>& points) {
@@ -132,6 +149,7 @@ void LoadedScene::take_field(const io::WrinkleField& given, const glm::dmat4& to
 // Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
 // the animation must not add waves.
 void LoadedScene::take_frame_fields(FrameFields fields) {
+  warn_of_unused(settings.wrinkles, "the fields of [bias], which are drawn as they were solved");
   fields_ = std::move(fields);
   smooth_all();
   field_mask_ = waves.mask;
@@ -154,6 +172,7 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
     bias_from(1, scene::posed(surface(), posed_at(animation, 1).drawn));
     return;
   }
+  warn_of_unused(settings.wrinkles, "solved waves, which are drawn as they were solved");
   std::vector<bool> cloth = deforming(*solved_, surface().rest);
   const std::vector<bool> soft = smooth_at_rest(*solved_, surface());
   for (std::size_t f = 0; f < cloth.size(); ++f) cloth[f] = cloth[f] && soft[f];

@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -463,14 +464,16 @@ Followed Follower::follow(const Positions& pose, const Positions* start,
     result.iterations = minimum.iterations;
   } else {
     // Early searches need not end: what they are for changes with the multipliers.
-    constexpr int most_rounds = 40, early = 4, early_steps = 12;
+    constexpr int most_rounds = 40, early = 4, early_steps = 12, later_steps = 100, hopeless = 6;
+    double deepest = std::numeric_limits<double>::infinity();
+    int best = 0;
     search.memory = 20;
     search.tolerance = 1e-6 * settings_.wavelength;
     Walls walls(outside, pose, matrix_.diagonal());
     const WallMetric with_walls(matrix_, free_, outside, walls.stiffness());
     minimum.x = moved;
     for (int round = 0; round < most_rounds && !result.converged && !interrupted(); ++round) {
-      search.max_iterations = round < early ? early_steps : settings_.max_iterations;
+      search.max_iterations = round < early ? early_steps : later_steps;
       minimum = find_minimum(
           minimum.x,
           [&](const Positions& u) {
@@ -482,7 +485,15 @@ Followed Follower::follow(const Positions& pose, const Positions* start,
           },
           [&](const Positions& gradient) { return with_walls.solve(gradient); }, search);
       result.iterations += minimum.iterations;
-      result.converged = walls.take(minimum.x) <= 1e-4 * settings_.wavelength && minimum.converged;
+      const double deep = walls.take(minimum.x);
+      result.converged = deep <= 1e-4 * settings_.wavelength && minimum.converged;
+      // Bodies that leave no way between them: pushing on ends nowhere.
+      if (deep < 0.5 * deepest) {
+        deepest = deep;
+        best = round;
+      } else if (round - best >= hopeless && deep > 1e-4 * settings_.wavelength) {
+        break;
+      }
     }
   }
   result.base += minimum.x;

@@ -347,6 +347,22 @@ TEST_F(SolvedDoor, ClothStaysOutsideABody) {
   EXPECT_THAT(error("red"), HasSubstr("--body red"));  // a part of the sheet, which is open
 }
 
+// What solved waves have no use for is told by name; nothing is where there is none.
+TEST_F(SolvedDoor, SettingsOfThePassesAreTold) {
+  write_sheets(2);
+  const auto told = [&](const std::string& wrinkles) {
+    write_text(folder_ / "scene.toml",
+               "[model]\npath = \"sheet_####.obj\"\n[wrinkles]\n" + wrinkles + "[solve]\n");
+    const Outcome outcome = plisse({"render", file("scene.toml"), "--size", "32x32", "-o", file("frames"),
+                                    "--cache-dir", file("cache"), "--json", file("report.json")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return report()["warnings"].dump();
+  };
+  EXPECT_THAT(told("profile = \"accordion\"\nfine = 3\nirregularity = 0.5\n"),
+              HasSubstr("profile, fine, irregularity of [wrinkles] have no part in solved waves"));
+  EXPECT_EQ(told("strength = 0.5\n"), "[]");
+}
+
 // What is wrong with the outputs is told before anything is solved.
 TEST_F(SolvedDoor, WhatIsWrongIsToldBeforeTheLongPart) {
   write_sheets(2);
