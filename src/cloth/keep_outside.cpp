@@ -111,6 +111,8 @@ KeptOutside follow_outside(const shell::Follower& follower, const ShellPoints& p
     for (std::size_t k = 0; k < distance.size(); ++k) {
       const auto point = static_cast<Index>(k);
       if (distance[k] >= least[point] - slack) continue;
+      const auto of = points.of(point);
+      if (std::ranges::none_of(of, [&](const auto& part) { return follower.moves(part.first); })) continue;
       result.outside = false;
       if (round == most_rounds) continue;
       shell::HalfSpace wall =
@@ -119,7 +121,7 @@ KeptOutside follow_outside(const shell::Follower& follower, const ShellPoints& p
       if (!has_own[k] && wall.normal.dot(here.col(point)) > wall.least - slack)
         wall = half_space(bodies, here.col(point), least[point]);
       has_own[k] = 1;
-      wall.of = points.of(point);
+      wall.of = of;
       walls.push_back(std::move(wall));
     }
     if (walls.size() == before) break;

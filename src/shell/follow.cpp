@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/OrderingMethods>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "shell/bending_quadratic.h"
+#include "shell/hessian_rows.h"
 #include "shell/stretching.h"
+#include "shell/walls.h"
 
 namespace plisse::shell {
 namespace {
@@ -57,78 +56,6 @@ std::vector<OnCurve> boundary_curves(const Topology& topology, const std::vector
   return result;
 }
 
-// Second derivatives at the inner vertices: −∫ ∇φ_i ⊗ ∇u over the ring of vertex i, φ_i its hat function, is
-// its cell's area times the Hessian of u. Three rows a vertex: uu, vv and √2 uv, so that their squares are
-// |∇²u|². With the Laplacian alone a free end could be curved one way as much as the other, at no cost: tubes
-// would flare (Stein, Grinspun, Wardetzky and Jacobson, Natural Boundary Conditions for Smoothing in Geometry
-// Processing, ACM TOG 2018).
-struct HessianRow {
-  std::uint32_t vertex;
-  std::array<std::vector<std::pair<std::uint32_t, double>>, 3> integral;  // of vertices, m²·1/m²
-};
-std::vector<HessianRow> hessians(const Topology& topology, const std::vector<RestFace>& rest) {
-  struct Corner {
-    std::uint32_t face, corner;
-  };
-  std::vector<std::vector<Corner>> ring(topology.vertex_count);
-  std::vector<bool> inner(topology.vertex_count, true);
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f)
-    for (std::uint32_t c = 0; c < 3; ++c) ring[topology.faces[f][c]].push_back({f, c});
-  for (const Edge& edge : topology.edges)
-    if (edge.boundary())
-      for (const std::uint32_t v : edge.vertex) inner[v] = false;
-  std::vector<HessianRow> result;
-  for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
-    if (!inner[v] || ring[v].empty()) continue;
-    // The faces in order round the vertex, with the directions of their first sides and their angles there.
-    struct Sector {
-      std::uint32_t face;
-      double first, angle;
-    };
-    std::vector<Sector> sectors;
-    Corner at = ring[v].front();
-    double whole = 0;
-    do {
-      Eigen::Matrix<double, 2, 3> corner;
-      corner << Eigen::Vector2d::Zero(), rest[at.face].edges;
-      const Eigen::Vector2d a = corner.col((at.corner + 1) % 3) - corner.col(at.corner),
-                            b = corner.col((at.corner + 2) % 3) - corner.col(at.corner);
-      const double first = std::atan2(a.y(), a.x()),
-                   angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-      sectors.push_back({at.face, first, angle});
-      whole += angle;
-      const Edge& edge = topology.edges[topology.face_edges[at.face][(at.corner + 1) % 3]];
-      const std::uint32_t next = edge.face[0] == at.face ? edge.face[1] : edge.face[0];
-      const Face& face = topology.faces[next];
-      at = {next, static_cast<std::uint32_t>(std::find(face.begin(), face.end(), v) - face.begin())};
-    } while (at.face != ring[v].front().face && sectors.size() < ring[v].size());
-    // The ring laid flat, its angles scaled to a whole turn.
-    const double scale = 2 * std::numbers::pi / whole;
-    std::map<std::uint32_t, Eigen::Matrix2d> of;
-    double turned = 0;
-    for (const Sector& sector : sectors) {
-      const double by = turned * scale + sector.angle * (scale - 1) / 2 - sector.first;
-      turned += sector.angle;
-      const Eigen::Rotation2Dd turn(by);
-      const RestFace& face = rest[sector.face];
-      const Eigen::Matrix<double, 2, 3> gradients = turn.toRotationMatrix() * face.gradients;
-      const Face& ids = topology.faces[sector.face];
-      const auto own = std::find(ids.begin(), ids.end(), v) - ids.begin();
-      for (std::size_t k = 0; k < 3; ++k) {
-        auto& sum = of.try_emplace(ids[k], Eigen::Matrix2d::Zero()).first->second;
-        sum -= face.area * gradients.col(own) * gradients.col(static_cast<Index>(k)).transpose();
-      }
-    }
-    HessianRow& row = result.emplace_back(HessianRow{v, {}});
-    for (const auto& [u, h] : of) {
-      row.integral[0].emplace_back(u, h(0, 0));
-      row.integral[1].emplace_back(u, h(1, 1));
-      row.integral[2].emplace_back(u, (h(0, 1) + h(1, 0)) / std::numbers::sqrt2);
-    }
-  }
-  return result;
-}
-
 // The stiffness of an isotropic membrane at rest that resists all directions alike: Yh/(1 − ν²) ∫ ∇u·∇u.
 Eigen::SparseMatrix<double> membrane(const Topology& topology, const std::vector<RestFace>& rest,
                                      const Material& material) {
@@ -146,135 +73,6 @@ Eigen::SparseMatrix<double> membrane(const Topology& topology, const std::vector
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
-
-// Half-spaces as an augmented Lagrangian (Hestenes 1969, Powell 1969): of each the multiplier p, N, and the
-// stiffness k, N/m, of what is added to the energy, (max(0, p − kd)² − p²)/2k at a distance d beyond its
-// plane.
-class Walls {
- public:
-  // stiffness: of the metric at the vertices. Walls add at most so many times that to each: more makes
-  // searches longer, less makes more of them.
-  Walls(const std::vector<HalfSpace>& walls, const Positions& pose, const VectorXd& stiffness)
-      : walls_(walls), multiplier_(walls.size(), 0), stiffness_(walls.size(), 0), distance_(walls.size(), 0) {
-    constexpr double times = 4;
-    VectorXd load = VectorXd::Zero(stiffness.size());
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-      double give = 0;
-      for (const auto& [v, weight] : walls[k].of) give += weight * weight / stiffness[v];
-      stiffness_[k] = give > 0 ? 1 / give : 0;
-      for (const auto& [v, weight] : walls[k].of) load[v] += stiffness_[k] * weight * weight;
-    }
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-      double least = 1;
-      for (const auto& [v, weight] : walls[k].of)
-        if (weight != 0 && load[v] > 0) least = std::min(least, stiffness[v] / load[v]);
-      stiffness_[k] *= times * least;
-      Vector3d at = Vector3d::Zero();
-      for (const auto& [v, weight] : walls[k].of) at += weight * pose.col(v);
-      distance_[k] = walls[k].normal.dot(at) - walls[k].least;
-    }
-  }
-
-  const std::vector<double>& stiffness() const { return stiffness_; }
-
-  double beyond(std::size_t k, const Positions& moved) const {
-    double distance = distance_[k];
-    for (const auto& [v, weight] : walls_[k].of) distance += weight * walls_[k].normal.dot(moved.col(v));
-    return distance;
-  }
-
-  void add(const Positions& moved, EnergyValue& value) const {
-    for (std::size_t k = 0; k < walls_.size(); ++k) {
-      if (!(stiffness_[k] > 0)) continue;
-      const double push = std::max(multiplier_[k] - stiffness_[k] * beyond(k, moved), 0.0),
-                   energy = (push * push - multiplier_[k] * multiplier_[k]) / (2 * stiffness_[k]);
-      value.energy += energy;
-      value.summands += std::abs(energy);
-      for (const auto& [v, weight] : walls_[k].of) value.gradient.col(v) -= push * weight * walls_[k].normal;
-    }
-  }
-
-  // Takes the pushes at the end of a search as multipliers. How far points are let in, m.
-  double take(const Positions& moved) {
-    double deepest = 0;
-    for (std::size_t k = 0; k < walls_.size(); ++k) {
-      if (!(stiffness_[k] > 0)) continue;
-      const double distance = beyond(k, moved);
-      multiplier_[k] = std::max(multiplier_[k] - stiffness_[k] * distance, 0.0);
-      deepest = std::max(deepest, -distance);
-    }
-    return deepest;
-  }
-
- private:
-  const std::vector<HalfSpace>& walls_;
-  std::vector<double> multiplier_, stiffness_, distance_;  // the last: where nothing has moved
-};
-
-// The metric with walls: the known matrix for each coordinate, and the walls' stiffness across them.
-class WallMetric {
- public:
-  WallMetric(const Eigen::SparseMatrix<double>& metric, const std::vector<bool>& free,
-             const std::vector<HalfSpace>& walls, const std::vector<double>& stiffness) {
-    std::vector<Triplet> pattern;
-    const auto count = metric.cols();
-    for (Index column = 0; column < count; ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(metric, column); it; ++it)
-        pattern.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), 1.0);
-    for (const HalfSpace& wall : walls)
-      for (const auto& [u, a] : wall.of)
-        for (const auto& [v, b] : wall.of)
-          pattern.emplace_back(static_cast<int>(u), static_cast<int>(v), 1.0);
-    Eigen::SparseMatrix<double> joined(count, count);
-    joined.setFromTriplets(pattern.begin(), pattern.end());
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-    Eigen::AMDOrdering<int>()(joined, order);
-    row_.assign(static_cast<std::size_t>(count), -1);
-    Index next = 0;
-    for (Index k = 0; k < count; ++k)
-      if (const int v = order.indices()[k]; free[static_cast<std::size_t>(v)]) {
-        row_[static_cast<std::size_t>(v)] = next;
-        next += 3;
-      }
-    size_ = next;
-    std::vector<Triplet> entries;
-    const auto add = [&](Index u, Index v, int i, int j, double value) {
-      const Index r = row_[static_cast<std::size_t>(u)] + i, c = row_[static_cast<std::size_t>(v)] + j;
-      if (row_[static_cast<std::size_t>(u)] >= 0 && row_[static_cast<std::size_t>(v)] >= 0 && r >= c)
-        entries.emplace_back(static_cast<int>(r), static_cast<int>(c), value);
-    };
-    for (Index column = 0; column < count; ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(metric, column); it; ++it)
-        for (int i = 0; i < 3; ++i) add(it.row(), column, i, i, it.value());
-    for (std::size_t k = 0; k < walls.size(); ++k)
-      for (const auto& [u, a] : walls[k].of)
-        for (const auto& [v, b] : walls[k].of)
-          for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-              add(u, v, i, j, stiffness[k] * a * b * walls[k].normal[i] * walls[k].normal[j]);
-    for (Index r = 0; r < size_; ++r) entries.emplace_back(static_cast<int>(r), static_cast<int>(r), 0.0);
-    Eigen::SparseMatrix<double> lower(size_, size_);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    cholesky_.analyse(lower);
-    cholesky_.factorise(lower);  // definite as the metric itself: walls add squares
-  }
-
-  Positions solve(const Positions& right) const {
-    VectorXd own(size_);
-    for (std::size_t v = 0; v < row_.size(); ++v)
-      if (row_[v] >= 0) own.segment<3>(row_[v]) = right.col(static_cast<Index>(v));
-    own = cholesky_.solve(own);
-    Positions result = Positions::Zero(3, right.cols());
-    for (std::size_t v = 0; v < row_.size(); ++v)
-      if (row_[v] >= 0) result.col(static_cast<Index>(v)) = own.segment<3>(row_[v]);
-    return result;
-  }
-
- private:
-  std::vector<Index> row_;  // of each vertex' first coordinate, −1 where it is held
-  Index size_ = 0;
-  Cholesky cholesky_;
-};
 
 // The rotation nearest to a matrix.
 Matrix3d rotation_of(const Matrix3d& matrix) {
@@ -309,7 +107,7 @@ Follower::Follower(Topology topology, std::vector<RestFace> rest, const Position
   const VectorXd cells = cell_laplacian(topology_, rest_).areas;
   std::vector<Triplet> entries;
   std::vector<double> weights;
-  for (const HessianRow& hessian : hessians(topology_, rest_))
+  for (const HessianRows& hessian : hessian_rows(topology_, rest_))
     for (const auto& integral : hessian.integral) {
       for (const auto& [v, value] : integral)
         entries.emplace_back(static_cast<int>(weights.size()), static_cast<int>(v), value);
@@ -469,7 +267,7 @@ Followed Follower::follow(const Positions& pose, const Positions* start,
     int best = 0;
     search.memory = 20;
     search.tolerance = 1e-6 * settings_.wavelength;
-    Walls walls(outside, pose, matrix_.diagonal());
+    Walls walls(outside, pose, matrix_.diagonal(), free_);
     const WallMetric with_walls(matrix_, free_, outside, walls.stiffness());
     minimum.x = moved;
     for (int round = 0; round < most_rounds && !result.converged && !interrupted(); ++round) {

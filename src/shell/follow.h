@@ -29,6 +29,7 @@
 #include "shell/material.h"
 #include "shell/rest_shape.h"
 #include "shell/vertex_solver.h"
+#include "shell/walls.h"
 
 namespace plisse::shell {
 
@@ -43,13 +44,6 @@ struct FollowSettings {
   int passes = 2;
   int max_iterations = 400;
   double tolerance = 1e-9;  // converged where no vertex moves by more than this share of Λ
-};
-
-// Where a point of the base surface, Σ weight · vertex, may be: n·x ≥ least, m; n of length 1, out of a body.
-struct HalfSpace {
-  std::vector<std::pair<std::uint32_t, double>> of;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();
-  double least = 0;
 };
 
 struct Followed {
@@ -68,6 +62,7 @@ class Follower {
            const FollowSettings& settings, const std::vector<bool>& held = {});
 
   double wavelength() const { return settings_.wavelength; }  // Λ, m
+  bool moves(std::uint32_t vertex) const { return free_[vertex]; }
   // Throws Error(bad_input) where the pose has another number of vertices or is not finite. May be called
   // from several threads. `start`: where the search begins, 3×V, on which its end does not depend; nothing:
   // the smoothed pose. outside: E with these, by an augmented Lagrangian; still one minimum, but found within
