@@ -163,9 +163,27 @@ Eigen::VectorXd wanted_heights(const wrinkle::BaseSurface& surface,
   for (const bool f : free) live.push_back(!f);
   const auto waves = wrinkle::local_waves(forms, surface.topology, live,
                                           std::vector<bool>(surface.topology.vertex_count, false), model);
+  // Waves longer than the middle one, by area times compression, belong to faces that are nearly flat and
+  // slack, whose neighbours make them shorter.
+  std::vector<std::pair<double, double>> frequencies;  // radians per metre, weights
+  double all = 0;
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
+    if (!(weight > 0)) continue;
+    frequencies.emplace_back(waves[f].gradient.norm(), weight);
+    all += weight;
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  double middle = 0;
+  for (double below = 0; const auto& [frequency, weight] : frequencies) {
+    middle = frequency;
+    if ((below += weight) >= all / 2) break;
+  }
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(surface.positions.cols()), area = sum;
   for (std::size_t f = 0; f < forms.size(); ++f) {
-    const double height = live[f] ? wrinkle::best_amplitude(forms[f], model, waves[f], waves[f].gradient) : 0;
+    const double frequency = waves[f].gradient.norm(),
+                 own = live[f] ? wrinkle::best_amplitude(forms[f], model, waves[f], waves[f].gradient) : 0,
+                 height = own * std::min(frequency / std::max(middle, 1e-300), 1.0);
     for (const std::uint32_t v : surface.topology.faces[f]) {
       sum[v] += forms[f].rest.area * height;
       area[v] += forms[f].rest.area;

@@ -61,7 +61,8 @@ std::vector<double> room_of(const ShellPoints& points, const Clearance& clearanc
                             const shell::Positions& base, const Bodies& bodies, double reach,
                             double& nearest);
 
-// m, one a vertex: how high waves would be by the surface's own strain and curvature, each face for itself.
+// m, one a vertex: how high waves would be by the surface's own strain and curvature, each face for itself,
+// none longer than the middle one.
 Eigen::VectorXd wanted_heights(const wrinkle::BaseSurface& surface,
                                const std::vector<wrinkle::FaceForms>& forms, const shell::Material& material);
 
