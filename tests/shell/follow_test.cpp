@@ -216,7 +216,7 @@ TEST(Follow, StepsDoNotGrowWithTheMesh) {
     const Followed followed = Follower(sheet.topology, sheet.rest, {}, settings(0.3, 2)).follow(pose);
     ASSERT_TRUE(followed.converged);
     if (cells == 12) few = followed.iterations;
-    EXPECT_LE(followed.iterations, few + 15);
+    EXPECT_LE(followed.iterations, few + 5);  // some more or less of thirty
   }
 }
 
