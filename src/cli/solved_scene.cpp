@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 
@@ -85,6 +86,10 @@ SolvedRun SolveArguments::run(const config::SceneSettings& scene, const CommonAr
                 {"converged", run.converged},
                 {"frames", frames}};
   run.report.update(reused_json(solved.reuse.answers, solved.reuse.saved_s));
+  const auto still = std::ranges::count_if(solved.frames, [&](const cloth::SolvedFrame& frame) {
+    return static_cast<std::size_t>(frame.followed.still) == solved.shells;
+  });
+  if (still > 0) run.report["skipped"]["moved as a whole"] = still;
   return run;
 }
 

@@ -211,6 +211,7 @@ TEST_F(WrinkleModel, ScaledAsAWholeIsNoStrain) {
   EXPECT_LT(last["compression"].get<double>(), 1e-5);  // of files with six digits
   EXPECT_EQ(last["max_amplitude_m"], 0);
   EXPECT_NEAR(last["length_kept"].get<double>(), 1, 1e-5);
+  EXPECT_EQ(report()["solve"]["skipped"]["moved as a whole"], 2);  // the rest pose is moved by nothing
 }
 
 TEST_F(WrinkleModel, SolveSaysWhatIsWrong) {
