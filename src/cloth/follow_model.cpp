@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/weighted_median.h"
 #include "cloth/archive.h"
 #include "cloth/fabric_material.h"
 #include "cloth/keep_outside.h"
@@ -154,7 +155,6 @@ shell::Material material_for(double wavelength, double tension_limit, const wrin
   const double thickest = 0.02 * wavelength, thinnest = 1e-4 * wavelength;
   material.thickness = thinnest;
   std::vector<std::pair<double, double>> stiffness;  // K, weight
-  double sum = 0;
   for (const Positions& positions : bases) {
     wrinkle::BaseSurface frame = surface;
     frame.positions = positions;
@@ -169,18 +169,10 @@ shell::Material material_for(double wavelength, double tension_limit, const wrin
                              std::vector<bool>(frame.topology.vertex_count, false), wrinkle::Model{material});
     for (std::size_t f = 0; f < waves.size(); ++f) {
       const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
-      if (!(weight > 0)) continue;
-      stiffness.emplace_back(waves[f].stiffness, weight);
-      sum += weight;
+      if (weight > 0) stiffness.emplace_back(waves[f].stiffness, weight);
     }
   }
-  std::sort(stiffness.begin(), stiffness.end());
-  double below = 0, middle = 0;
-  for (const auto& [value, weight] : stiffness) {
-    below += weight;
-    middle = value;
-    if (below >= sum / 2) break;
-  }
+  const double middle = weighted_median(std::move(stiffness));
   const double rate = 2 * std::numbers::pi / wavelength, poisson = material.poisson,
                wanted = std::sqrt(12 * (1 - poisson * poisson) * std::max(middle, 0.0)) / (rate * rate);
   if (wanted > thickest)

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/weighted_median.h"
 #include "wrinkle/local_waves.h"
 #include "wrinkle/upsample.h"
 #include "wrinkle/wrinkle_free.h"
@@ -166,19 +167,10 @@ Eigen::VectorXd wanted_heights(const wrinkle::BaseSurface& surface,
   // Waves longer than the middle one, by area times compression, belong to faces that are nearly flat and
   // slack, whose neighbours make them shorter.
   std::vector<std::pair<double, double>> frequencies;  // radians per metre, weights
-  double all = 0;
-  for (std::size_t f = 0; f < forms.size(); ++f) {
-    const double weight = live[f] ? forms[f].rest.area * std::max(waves[f].compression, 0.0) : 0;
-    if (!(weight > 0)) continue;
-    frequencies.emplace_back(waves[f].gradient.norm(), weight);
-    all += weight;
-  }
-  std::sort(frequencies.begin(), frequencies.end());
-  double middle = 0;
-  for (double below = 0; const auto& [frequency, weight] : frequencies) {
-    middle = frequency;
-    if ((below += weight) >= all / 2) break;
-  }
+  for (std::size_t f = 0; f < forms.size(); ++f)
+    if (live[f] && waves[f].compression > 0)
+      frequencies.emplace_back(waves[f].gradient.norm(), forms[f].rest.area * waves[f].compression);
+  const double middle = weighted_median(std::move(frequencies));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(surface.positions.cols()), area = sum;
   for (std::size_t f = 0; f < forms.size(); ++f) {
     const double frequency = waves[f].gradient.norm(),

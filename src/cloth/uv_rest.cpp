@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/weighted_median.h"
 
 namespace plisse::cloth {
 namespace {
@@ -40,16 +41,6 @@ double area_of(const Corners2& corners) {
   const double area = std::abs(a.x() * b.y() - a.y() * b.x()) / 2,
                longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
   return area > 1e-12 * longest ? area : 0;
-}
-
-// Values with weights → the one below which half of the weight is.
-double weighted_median(std::vector<std::pair<double, double>> values) {
-  std::sort(values.begin(), values.end());
-  double sum = 0, below = 0;
-  for (const auto& [value, weight] : values) sum += weight;
-  for (const auto& [value, weight] : values)
-    if ((below += weight) >= sum / 2) return value;
-  return 0;
 }
 
 }  // namespace

@@ -6,28 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/weighted_median.h"
+
 namespace plisse::wrinkle {
-namespace {
-
-// Of values with weights; `sum`: of these.
-double median(std::vector<std::pair<double, double>> values, double sum) {
-  std::sort(values.begin(), values.end());
-  double below = 0, middle = 0;
-  for (const auto& [value, weight] : values) {
-    below += weight;
-    middle = value;
-    if (below >= sum / 2) break;
-  }
-  return middle;
-}
-
-}  // namespace
 
 TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& forms,
                const shell::Material& material, const CoarseField& field) {
   TakeUp result;
-  double area = 0, all = 0, taken = 0, height = 0;
-  double wavy = 0, squares = 0, compressed = 0;
+  double area = 0, all = 0, taken = 0, squares = 0, compressed = 0;
   std::vector<std::pair<double, double>> frequencies, angles;  // |ω|, radians; their weights
   for (std::size_t f = 0; f < forms.size(); ++f) {
     const PrincipalStrain strain = principal_strain(forms[f]);
@@ -46,17 +32,15 @@ TakeUp take_up(const shell::Topology& topology, const std::vector<FaceForms>& fo
     taken += face * std::min(waves / 2, across);
     if (!(waves > 0)) continue;
     frequencies.emplace_back(frequency, face * waves);
-    height += face * waves;
     angles.emplace_back(std::acos(std::min(std::abs(gradient.dot(strain.wave)) / frequency, 1.0)), face);
-    wavy += face;
     squares += face * square;
     if (strain.compression < 0) compressed += face * square;
   }
   result.compression = area > 0 ? all / area : 0;
   result.untaken = all > 0 ? 1 - taken / all : 0;
   if (frequencies.empty()) return result;
-  result.wavelength = 2 * std::numbers::pi / median(std::move(frequencies), height);
-  result.crest_angle = median(std::move(angles), wavy);
+  result.wavelength = 2 * std::numbers::pi / weighted_median(std::move(frequencies));
+  result.crest_angle = weighted_median(std::move(angles));
   result.where_compressed = compressed / squares;
   return result;
 }
