@@ -42,7 +42,10 @@ class Bases {
       first_ = read_base(request.bases);
       io::ImportOptions options;
       options.cache = request.cache;
-      cache_ = io::import_model(request.bases, options).cache;
+      const io::Model model = io::import_model(request.bases, options);
+      cache_ = model.cache;
+      for (const io::Mesh& mesh : model.meshes)
+        file_vertex_.insert(file_vertex_.end(), mesh.file_vertices.begin(), mesh.file_vertices.end());
     }
   }
 
@@ -76,7 +79,10 @@ class Bases {
       return scene;
     }
     WrinkleScene scene = first_;
-    scene.surface.positions = points_to_eigen(*cache_.frame(index));
+    // A model's vertices are split where uv are; the base's are the file's.
+    const auto places = cache_.frame(index);
+    for (std::size_t v = 0; v < places->size(); ++v)
+      scene.surface.positions.col(file_vertex_.at(v)) = to_eigen((*places)[v]);
     return scene;
   }
 
@@ -86,6 +92,7 @@ class Bases {
   int from_;
   std::vector<fs::path> files_;
   io::VertexCache cache_;
+  std::vector<std::uint32_t> file_vertex_;  // of each of its places
   WrinkleScene first_;
 };
 

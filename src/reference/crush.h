@@ -14,8 +14,8 @@ enum class Status : std::uint8_t { idle = 0, set = 1, fresh = 2 };
 
 struct CrushSettings {
   double dead_zone = 0.005;  // δ, of 1 − r
-  bool unstrained = false;   // M = E: only the bias shortens, which is of the pose itself
   bool smooth = true;        // relax mode `smooth`; false: `descent`, where every vertex is always set
+  bool unstrained = false;   // M = E: only the bias shortens, which is of the pose itself
 };
 
 // State from frame to frame.

@@ -35,7 +35,7 @@ TEST(Options, EveryOptionOfTheContractIsThere) {
       names, testing::UnorderedElementsAre("--output", "--frames", "--fps", "--clip", "--size", "--samples",
                                            "--wavelength", "--profile", "--relax", "--rounds", "--interval",
                                            "--camera", "--background", "--only", "--exclude", "--method",
-                                           "--quality", "--fabric", "--follow", "--tension-limit",
+                                           "--quality", "--fabric", "--follow", "--tension-limit", "--body",
                                            "--strength", "--rest", "--up", "--units", "--cache", "--limits"));
 }
 

@@ -454,6 +454,7 @@ TEST_F(SceneFile, EveryKeySetsSomethingOfItsOwn) {
                                                      {"profile", "\"pencil\""},
                                                      {"only", "[\"x\"]"},
                                                      {"exclude", "[\"x\"]"},
+                                                     {"bodies", "[\"x\"]"},
                                                      {"mode", "\"descent\""},
                                                      {"method", "\"passes\""},
                                                      {"quality", "\"draft\""},
