@@ -4,7 +4,7 @@
 #include "common/surface.glsl"
 
 layout(binding = 17) uniform samplerBuffer rest_rows;  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
-layout(binding = 18) uniform samplerBuffer biases;     // q: painted wrinkles of the rest pose
+layout(binding = 18) uniform samplerBuffer biases;     // q: painted wrinkles of the rest pose; φ of a solved field, whether there is one
 layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
 layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
 layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
@@ -34,7 +34,8 @@ void main() {
         m0 += (dot(t, e) - rest.z) * rest.xy;
         m1 += (dot(b, e) - rest.w) * rest.xy;
     }
-    vec2 q = texelFetch(biases, int(v)).xy;  // M(E − q⊗q)
+    vec4 bias = texelFetch(biases, int(v));
+    vec2 q = bias.xy;  // M(E − q⊗q)
     m0 -= dot(m0, q) * q;
     m1 -= dot(m1, q) * q;
     float determinant = m0.x * m1.y - m0.y * m1.x;
@@ -83,7 +84,15 @@ void main() {
     } else {
         bool can_wave = mask > 0.0 && has_direction;
         if (status != idle && !(can_wave && s >= 0.5 * dead_zone)) status = idle;
-        else if (status == idle && can_wave && s > dead_zone) status = fresh;
+        else if (status == idle && can_wave && s > dead_zone) {
+            status = fresh;
+            // Within 45 degrees of the field's direction a wave begins as the field's; −k counts its phase the other way.
+            float along = dot(k, q);
+            if (bias.w > 0.0 && along * along >= 0.5 * dot(q, q)) {
+                status = set;
+                phases_out[v].x = along < 0.0 ? -bias.z : bias.z;
+            }
+        }
         if (status == fresh) atomicAdd(fresh_count, 1u);
         if (status != idle) all_idle = 0u;
     }

@@ -25,8 +25,9 @@ struct VertexWaves {
   // p of docs/passes.md, "Crush": tangent vectors of the rest pose along which the cloth counts as shortened
   // by |p|² (p and −p mean the same), |p| < 1; empty: none.
   std::vector<glm::dvec3> bias = {};
-  // Where waves are there from the beginning: ±k, unit and tangent to the rest pose, 0 for vertices that
-  // start without; and their phases, radians. Empty: none.
+  // Where waves are there from the beginning, as of solved fields: ±k, unit, tangent to the rest pose and
+  // along the bias, 0 for vertices that start without; and their phases, radians, with which they also come
+  // back after they were gone. Empty: none.
   std::vector<glm::dvec3> start_direction = {};
   std::vector<double> start_phase = {};
   // What the animation does to the cloth has no part in its waves: `bias` is of each pose itself, tangent to

@@ -11,7 +11,7 @@ void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set, 
   surface.counter.write(none_fresh_all_idle_all_flat, sizeof none_fresh_all_idle_all_flat);
   surface.bind_for_reading();
   surface.rest_rows.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::vec4);
-  surface.biases.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec2);
+  surface.biases.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
   surface.states.bind_storage(0);
   surface.waves.bind_storage(1);
   surface.world_waves.bind_storage(2);

@@ -41,11 +41,26 @@ glm::dmat2 regression_inverse(const glm::dvec2* begin, const glm::dvec2* end) {
   return trace > 0 ? glm::inverse(s + glm::dmat2(1e-6 * trace)) : glm::dmat2(0.0);
 }
 
-// q = (t·p, b·p), no longer than .99 (docs/passes.md, "Crush").
-glm::vec2 bias_in_frame(const glm::dvec3& p, const glm::dvec3& t, const glm::dvec3& n) {
+bool starts(const VertexWaves& waves, std::size_t v) {
+  return !waves.start_direction.empty() && waves.start_direction[v] != glm::dvec3(0);
+}
+
+// q = (t·p, b·p), no longer than .99 (docs/passes.md, "Crush"); φ of a solved field, and whether there is
+// one.
+glm::vec4 bias_in_frame(const VertexWaves& waves, const RestFrames& frames, std::size_t v) {
+  if (waves.bias.empty()) return glm::vec4(0);
+  const glm::dvec3 &p = waves.bias[v], &t = frames.tangent[v], &n = frames.normal[v];
   const glm::dvec2 q(glm::dot(t, p), glm::dot(glm::cross(n, t), p));
   const double length = glm::length(q);
-  return glm::vec2(length > 0.99 ? q * (0.99 / length) : q);
+  const glm::vec2 cut(length > 0.99 ? q * (0.99 / length) : q);
+  return starts(waves, v) ? glm::vec4(cut, waves.start_phase[v], 1) : glm::vec4(cut, 0, 0);
+}
+
+// k in the frames, at the beginning.
+glm::vec4 first_state(const VertexWaves& waves, const RestFrames& frames, std::size_t v) {
+  if (!starts(waves, v)) return glm::vec4(0);
+  const glm::dvec3 &k = waves.start_direction[v], &t = frames.tangent[v];
+  return {glm::dot(t, k), glm::dot(glm::cross(frames.normal[v], t), k), 0, 0};
 }
 
 // W, mask, D of a vertex.
@@ -130,10 +145,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
     return constants_of(vertex_waves, rest, units, v);
   }));
   rest_rows = gpu::Buffer(rows);
-  biases = gpu::Buffer(mapped(count, [&](std::size_t v) {
-    return vertex_waves.bias.empty() ? glm::vec2(0)
-                                     : bias_in_frame(vertex_waves.bias[v], rest.tangent[v], rest.normal[v]);
-  }));
+  biases = gpu::Buffer(mapped(count, [&](std::size_t v) { return bias_in_frame(vertex_waves, rest, v); }));
 
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];
@@ -157,17 +169,10 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
   positions = gpu::Buffer(count * sizeof(glm::vec4));
   frames = gpu::Buffer(count * 2 * sizeof(glm::vec4));
   world_waves = gpu::Buffer(count * sizeof(glm::vec4));
-  const auto starts = [&](std::size_t v) {
-    return !vertex_waves.start_direction.empty() && vertex_waves.start_direction[v] != glm::dvec3(0);
-  };
-  states = gpu::Buffer(mapped(count, [&](std::size_t v) {
-    if (!starts(v)) return glm::vec4(0);
-    const glm::dvec3 k = vertex_waves.start_direction[v], t = rest.tangent[v];
-    return glm::vec4(glm::dot(t, k), glm::dot(glm::cross(rest.normal[v], t), k), 0, 0);
-  }));
+  states = gpu::Buffer(mapped(count, [&](std::size_t v) { return first_state(vertex_waves, rest, v); }));
   waves = gpu::Buffer(count * sizeof(glm::vec4));
   phases = gpu::Buffer(mapped(count, [&](std::size_t v) {
-    if (starts(v)) return glm::vec2(vertex_waves.start_phase[v], 1);  // set
+    if (starts(vertex_waves, v)) return glm::vec2(vertex_waves.start_phase[v], 1);  // set
     return glm::vec2(initial_phase(seed, static_cast<std::uint32_t>(v)), 0);
   }));
   phases_next = gpu::Buffer(count * sizeof(glm::vec2));
@@ -220,8 +225,10 @@ bool SurfaceBuffers::any_height() const {
 void SurfaceBuffers::take_bias(const VertexWaves& given, const RestFrames& rest, const RestFrames& posed,
                                const ModelUnits& units) {
   constants.write(mapped(vertex_count, [&](std::size_t v) { return constants_of(given, rest, units, v); }));
-  biases.write(mapped(vertex_count, [&](std::size_t v) {
-    return bias_in_frame(given.bias[v], posed.tangent[v], posed.normal[v]);
+  biases.write(mapped(vertex_count, [&](std::size_t v) { return bias_in_frame(given, posed, v); }));
+  states.write(mapped(vertex_count, [&](std::size_t v) { return first_state(given, posed, v); }));
+  phases.write(mapped(vertex_count, [&](std::size_t v) {
+    return starts(given, v) ? glm::vec2(given.start_phase[v], 1) : glm::vec2(0);
   }));
 }
 

@@ -33,8 +33,10 @@ scene::AnimationChoice choice_of(const config::SceneSettings& scene) {
   return {model.clip, model.frames_per_second, model.rest, model.loop, scene.limits};
 }
 
-// Solved waves are cosines as they were solved; `where`: what the passes' settings have no part in.
-void warn_of_unused(const config::WrinkleSettings& wrinkles, std::string_view where) {
+// Solved waves are cosines as they were solved; `where`: what the passes' settings have no part in;
+// `instead`: what has a use for them.
+void warn_of_unused(const config::WrinkleSettings& wrinkles, std::string_view where,
+                    std::string_view instead) {
   const config::WrinkleSettings plain;
   std::vector<std::string_view> unused;
   for (const auto& [given, name] : {std::pair{wrinkles.profile != plain.profile, "profile"},
@@ -43,9 +45,8 @@ void warn_of_unused(const config::WrinkleSettings& wrinkles, std::string_view wh
                                     {!wrinkles.wavelength_map.empty(), "wavelength_map"}})
     if (given) unused.emplace_back(name);
   if (!unused.empty())
-    log::warn(
-        fmt::format("{} of [wrinkles] {} no part in {}; method = \"bias\" of [solve] has a use for them",
-                    fmt::join(unused, ", "), unused.size() == 1 ? "has" : "have", where));
+    log::warn(fmt::format("{} of [wrinkles] {} no part in {}; {} has a use for them", fmt::join(unused, ", "),
+                          unused.size() == 1 ? "has" : "have", where, instead));
 }
 
 scene::Animation::Bounds bounds_of(const std::vector<glm::dvec3>& points) {
@@ -149,7 +150,8 @@ void LoadedScene::take_field(const io::WrinkleField& given, const glm::dmat4& to
 // Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
 // the animation must not add waves.
 void LoadedScene::take_frame_fields(FrameFields fields) {
-  warn_of_unused(settings.wrinkles, "the fields of [bias], which are drawn as they were solved");
+  warn_of_unused(settings.wrinkles, "the fields of [bias], which are drawn as they were solved",
+                 "one field with use = \"bias\"");
   fields_ = std::move(fields);
   smooth_all();
   field_mask_ = waves.mask;
@@ -172,7 +174,8 @@ void LoadedScene::take_solved(const scene::InMemory& memory) {
     bias_from(1, scene::posed(surface(), posed_at(animation, 1).drawn));
     return;
   }
-  warn_of_unused(settings.wrinkles, "solved waves, which are drawn as they were solved");
+  warn_of_unused(settings.wrinkles, "solved waves, which are drawn as they were solved",
+                 "method = \"bias\" of [solve]");
   std::vector<bool> cloth = deforming(*solved_, surface().rest);
   const std::vector<bool> soft = smooth_at_rest(*solved_, surface());
   for (std::size_t f = 0; f < cloth.size(); ++f) cloth[f] = cloth[f] && soft[f];
@@ -346,7 +349,7 @@ paint::Screen LoadedScene::screen(const config::PaintStroke& stroke) const {
 
 double LoadedScene::lead_at(int step) const {
   const scene::Timeline& timeline = animation.timeline();
-  if (step <= preroll_ + 1 || preroll_ == 0) return 0;
+  if (step <= preroll_ + 1 || preroll_ == 0 || has_bias_a_frame()) return 0;
   const int left = timeline.frame_count - frame_of_step(step);  // frames until the last
   const int reach = std::min(timeline.frame_count / 3, static_cast<int>(timeline.frames_per_second));
   // Equal steps: the remaining difference after the last frame is one step, the one to the first frame.

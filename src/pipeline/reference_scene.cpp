@@ -58,18 +58,11 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
   for (Index v = 0; v < wander.cols(); ++v)
     wander.col(v) =
         rest_frames.basis(v).transpose() * to_eigen(scene.waves.wander[static_cast<std::size_t>(v)]);
-  bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
-  initial_phases.resize(static_cast<Index>(count));
-  for (std::size_t v = 0; v < count; ++v) {
-    initial_phases[static_cast<Index>(v)] = static_cast<double>(
+  first_phases.resize(static_cast<Index>(count));
+  for (std::size_t v = 0; v < count; ++v)
+    first_phases[static_cast<Index>(v)] = static_cast<double>(
         passes::initial_phase(scene.settings.wrinkles.seed, static_cast<std::uint32_t>(v)));
-    const auto& starts = scene.waves.start_direction;
-    initial_states.emplace_back();
-    if (starts.empty() || starts[v] == glm::dvec3(0)) continue;
-    initial_states.back() = {rest_frames.basis(static_cast<Index>(v)).transpose() * to_eigen(starts[v]),
-                             reference::Status::set};
-    initial_phases[static_cast<Index>(v)] = scene.waves.start_phase[v];
-  }
+  take_bias();
   const auto& settings = scene.settings;
   crush.dead_zone = settings.wrinkles.dead_zone;
   crush.unstrained = scene.waves.unstrained;
@@ -83,7 +76,21 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
 
 void ReferenceScene::take_bias() {
   wavelength = vector(scene.waves.wavelength, 1 / scene.units.metres);
-  bias = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
+  bias.p = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
+  bias.phase.assign(scene.waves.start_direction.size(), std::nullopt);
+  for (std::size_t v = 0; v < bias.phase.size(); ++v) {
+    if (scene.waves.start_direction[v] == glm::dvec3(0)) continue;
+    bias.phase[v] = first_phases[static_cast<Index>(v)] = scene.waves.start_phase[v];
+  }
+}
+
+std::vector<reference::CrushState> ReferenceScene::first_states(const reference::Frames& frames) const {
+  std::vector<reference::CrushState> states(static_cast<std::size_t>(topology.size()));
+  for (std::size_t v = 0; v < bias.phase.size(); ++v)
+    if (bias.phase[v])
+      states[v] = {frames.basis(static_cast<Index>(v)).transpose() * to_eigen(scene.waves.start_direction[v]),
+                   reference::Status::set};
+  return states;
 }
 
 reference::SkinPose ReferenceScene::pose(const scene::Pose& pose) const {
@@ -272,9 +279,9 @@ reference::Scene picture_scene(const ReferenceScene& scene, const WaveSnapshot& 
 }
 
 ReferenceChain::ReferenceChain(const ReferenceScene& scene) : scene_(scene) {
-  now_.phases = scene.initial_phases;
+  now_.phases = scene.first_phases;
   const auto count = scene.topology.size();
-  now_.states = scene.initial_states;
+  now_.states = scene.first_states(scene.rest_frames);
   now_.wavenumbers = Eigen::Matrix2Xd::Zero(2, count);
   now_.heights = now_.weights = now_.compression = Eigen::VectorXd::Zero(count);
 }
@@ -288,7 +295,12 @@ void ReferenceChain::step(int step, const scene::Pose& pose, bool with_crush,
     now_.frames = scene_.frames(pose, now_.positions);
     last_ = pose;
   }
-  if (with_crush && (!crushed_ || *crushed_ != pose)) {
+  const bool bias_a_frame = scene_.scene.has_bias_a_frame();
+  if (with_crush && (bias_a_frame || !crushed_ || *crushed_ != pose)) {
+    if (bias_a_frame) {
+      now_.states = scene_.first_states(now_.frames);
+      now_.phases = scene_.first_phases;
+    }
     crush_and_relax(share > 0);
     crushed_ = pose;
   }
@@ -305,12 +317,14 @@ void ReferenceChain::crush_and_relax(bool leads) {
       crushed[v].direction *= -1;
       crushed[v].wave_vector *= -1;
       crushed[v].wavenumber *= -1;
+      if (crushed[v].phase) *crushed[v].phase *= -1;
     }
     now_.wavenumbers.col(i) = crushed[v].wavenumber;
     now_.heights[i] = crushed[v].height;
     now_.weights[i] = crushed[v].weight;
     now_.compression[i] = 1 - crushed[v].r;
     now_.states[v] = {crushed[v].direction, crushed[v].status};
+    if (crushed[v].phase) now_.phases[i] = *crushed[v].phase;
   }
   if (leads) lead(reference::Status::fresh, 1);
   reference::WaveField field = now_.field();

@@ -22,16 +22,18 @@ struct ReferenceScene {
   reference::SkinPose pose(const scene::Pose& pose) const;    // palette and morph weights
   Eigen::Matrix3Xd positions(const scene::Pose& pose) const;  // x', from bones or cache
   reference::Frames frames(const scene::Pose& pose, const Eigen::Matrix3Xd& positions) const;
+  // Waves that are there from the beginning, in these frames: of the rest pose or, with a bias a frame,
+  // posed.
+  std::vector<reference::CrushState> first_states(const reference::Frames& frames) const;
 
   const LoadedScene& scene;
   reference::Topology topology;
   reference::Frames rest_frames;  // those that the passes use
   std::vector<std::uint32_t> tangent_neighbour;
   reference::SkinModel skin;
-  Eigen::VectorXd wavelength, mask, initial_phases;
+  Eigen::VectorXd wavelength, mask, first_phases;
   Eigen::Matrix2Xd wander;  // D in (t, b)
-  std::vector<reference::CrushState> initial_states;
-  Eigen::Matrix3Xd bias;  // p, or no columns
+  reference::Bias bias;
   reference::CrushSettings crush;
   reference::RelaxSettings relax;
 };

@@ -110,7 +110,8 @@ bool Stepper::advance_to(int step) {
     const double share = scene_.lead_at(step_);
     const bool moved = !last_pose_ || *last_pose_ != pose;
     // With an interval, a pose that does not change may differ from the last one that was crushed.
-    const bool crushes = crush_runs_at(step_) && (!crushed_pose_ || *crushed_pose_ != pose);
+    const bool crushes =
+        crush_runs_at(step_) && (scene_.has_bias_a_frame() || !crushed_pose_ || *crushed_pose_ != pose);
     if (moved) {
       skin(pose);
       observe(Stage::posed);

@@ -37,7 +37,8 @@ constexpr double certain_gap = 0.01;
 constexpr double phase_tolerance = 1e-3;  // rad
 constexpr double phase_fraction = 0.999;  // of wrinkled vertices
 constexpr int phase_rounds = 10;
-// One step of closing a loop is a few operations on numbers below π.
+// One step of closing a loop is a few operations on numbers below π; the phase of a solved wave is only
+// stored.
 constexpr double lead_tolerance = 1e-5;  // rad
 
 double wrapped_difference(double a, double b) {
@@ -58,9 +59,13 @@ double normal_certainty(const reference::Topology& topology, const Eigen::Matrix
   return size > 0 ? area.norm() / size : 0;
 }
 
-// Whether with other rounding errors the status may be another.
-bool status_hangs_on_rounding(const reference::CrushResult& vertex, double dead_zone) {
+// Whether with other rounding errors the status may be another. `q`: the solved wave's direction, of any
+// length, in the rest frame; 0 without one.
+bool status_hangs_on_rounding(const reference::CrushResult& vertex, double dead_zone,
+                              const Eigen::Vector2d& q) {
   const double s = 1 - vertex.r;
+  const double turned = std::abs(std::abs(vertex.direction.dot(q)) - std::sqrt(0.5) * q.norm());
+  if (turned * vertex.gap < sign_rounding * q.norm()) return true;
   return std::abs(s - dead_zone) < r_tolerance || std::abs(s - dead_zone / 2) < r_tolerance ||
          std::abs(vertex.gap - certain_gap) < r_tolerance;
 }
@@ -84,7 +89,8 @@ WaveComparison::WaveComparison(LoadedScene& scene, ReferenceScene& reference, St
       status_(0, "of 1"),
       relax_(phase_tolerance, "rad", phase_fraction),
       ten_rounds_(phase_tolerance, "rad", phase_fraction),
-      lead_(lead_tolerance, "rad") {}
+      lead_(lead_tolerance, "rad"),
+      begun_(lead_tolerance, "rad") {}
 
 void WaveComparison::before_step(int step, bool looking) {
   pose_ = scene_.pose(step);
@@ -147,9 +153,10 @@ void WaveComparison::compare_skin(const WaveSnapshot& gpu) {
 }
 
 void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
-  const auto expected = reference::crush(reference_.topology, reference_.rest_frames, gpu.positions,
-                                         gpu.frames, reference_.wavelength, reference_.mask, reference_.crush,
-                                         before_.states, reference_.bias);
+  const auto expected = reference::crush(
+      reference_.topology, reference_.rest_frames, gpu.positions, gpu.frames, reference_.wavelength,
+      reference_.mask, reference_.crush,
+      scene_.has_bias_a_frame() ? reference_.first_states(gpu.frames) : before_.states, reference_.bias);
   for (std::size_t v = 0; v < expected.size(); ++v) {
     const auto& e = expected[v];
     const auto i = static_cast<Index>(v);
@@ -157,8 +164,17 @@ void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
     r_.add(std::abs(1 - gpu.compression[i] - e.r) / std::max(1.0, e.r));
     (1 - e.r > reference_.crush.dead_zone ? height_ : easing_).add(std::abs(gpu.heights[i] - e.height) / W);
     weight_.add(std::abs(gpu.weights[i] - e.weight));
-    if (!status_hangs_on_rounding(e, reference_.crush.dead_zone))
+    const bool solved = !reference_.bias.phase.empty() && reference_.bias.phase[v];
+    const Eigen::Vector2d q =
+        solved ? Eigen::Vector2d(reference_.rest_frames.basis(i).transpose() * reference_.bias.p.col(i))
+               : Eigen::Vector2d(0, 0);
+    if (!status_hangs_on_rounding(e, reference_.crush.dead_zone, q)) {
       status_.add(gpu.states[v].status == e.status ? 0 : 1);
+      if (e.phase) {
+        const double sign = e.direction.dot(gpu.states[v].direction) < 0 ? -1 : 1;
+        begun_.add(std::abs(wrapped_difference(sign * gpu.phases[i], *e.phase)));
+      }
+    }
     if (e.direction.norm() == 0 || gpu.states[v].direction.norm() == 0) continue;
     const Eigen::Vector2d own = gpu.wavenumbers.col(i) * W, kept = before_.states[v].direction;
     // The sign is arbitrary when a direction is first set. Later waves jump if it is wrong; either sign is
@@ -242,6 +258,7 @@ void WaveComparison::report(std::map<std::string, PassComparison>& passes) const
   passes["relax"] = relax_.comparison();
   passes["relax.ten_rounds"] = ten_rounds_.comparison();
   if (lead_.count() > 0) passes["relax.lead"] = lead_.comparison();
+  if (begun_.count() > 0) passes["crush.phase"] = begun_.comparison();
 }
 
 }  // namespace plisse::pipeline

@@ -86,18 +86,24 @@ Matrix2d biased(const Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis
   return M * shortening;
 }
 
+void begin_as_solved(const Vector2d& q, double phase, CrushResult& vertex) {
+  if (vertex.status != Status::fresh || std::abs(vertex.direction.dot(q)) < std::sqrt(0.5) * q.norm()) return;
+  vertex.status = Status::set;
+  vertex.phase = std::copysign(1.0, vertex.direction.dot(q)) * phase;
+}
+
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
                                const Matrix3Xd& positions, const Frames& frames,
                                const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,
                                const CrushSettings& settings, const std::vector<CrushState>& previous,
-                               const Matrix3Xd& bias) {
+                               const Bias& bias) {
   std::vector<CrushResult> results;
   results.reserve(static_cast<std::size_t>(topology.size()));
   for (Index vertex = 0; vertex < topology.size(); ++vertex) {
+    const auto index = static_cast<std::size_t>(vertex);
     if (settings.unstrained) {
-      const Matrix2d M = biased(Matrix2d::Identity(), frames.basis(vertex), bias.col(vertex));
-      results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings,
-                                     previous[static_cast<std::size_t>(vertex)]));
+      const Matrix2d M = biased(Matrix2d::Identity(), frames.basis(vertex), bias.p.col(vertex));
+      results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings, previous[index]));
       continue;
     }
     const auto neighbours = row(topology.neighbours, vertex);
@@ -110,9 +116,11 @@ std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_fram
       ++column;
     }
     Matrix2d M = regression(v, posed);
-    if (bias.cols() > 0) M = biased(M, rest_frames.basis(vertex), bias.col(vertex));
-    results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings,
-                                   previous[static_cast<std::size_t>(vertex)]));
+    if (bias.p.cols() > 0) M = biased(M, rest_frames.basis(vertex), bias.p.col(vertex));
+    results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings, previous[index]));
+    if (!bias.phase.empty() && bias.phase[index] && previous[index].status == Status::idle)
+      begin_as_solved(rest_frames.basis(vertex).transpose() * bias.p.col(vertex), *bias.phase[index],
+                      results.back());
   }
   return results;
 }

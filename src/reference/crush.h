@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reference/topology.h"
@@ -24,6 +25,12 @@ struct CrushState {
   Status status = Status::idle;
 };
 
+// What is painted on the rest pose, of each vertex; or nothing.
+struct Bias {
+  Eigen::Matrix3Xd p;                        // as columns
+  std::vector<std::optional<double>> phase;  // φ of the wave along p, radians: where there is a solved field
+};
+
 struct CrushResult {
   Eigen::Matrix2d M;                // (t, b) → (t', b')
   double r = 1;                     // σ₂, the least stretch
@@ -36,6 +43,7 @@ struct CrushResult {
   double height = 0;                  // h, a length
   double weight = 0;                  // w in relax, 0…1
   Status status = Status::idle;       // the new state
+  std::optional<double> phase;        // φ of a wave that came back as its field's, of `direction`
 };
 
 // The linear regression of eq. 1 with its regularisation: for v' = Fv, M = F + μ(E − F)(S + μE)⁻¹. Columns
@@ -57,12 +65,15 @@ CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mas
 Eigen::Matrix2d biased(const Eigen::Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis,
                        const Eigen::Vector3d& p);
 
-// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is the state of the last frame;
-// `bias` has p of each vertex as columns, or none.
+// A wave that was idle and comes back within 45 degrees of the solved wave along q (in (t, b)) has that one's
+// phase, with the sign that its k has to q; it is set at once.
+void begin_as_solved(const Eigen::Vector2d& q, double phase, CrushResult& vertex);
+
+// The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is the state of the last frame.
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,
                                const Eigen::Matrix3Xd& positions, const Frames& frames,
                                const Eigen::VectorXd& wavelength, const Eigen::VectorXd& mask,
                                const CrushSettings& settings, const std::vector<CrushState>& previous,
-                               const Eigen::Matrix3Xd& bias = {});
+                               const Bias& bias = {});
 
 }  // namespace plisse::reference

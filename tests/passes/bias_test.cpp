@@ -32,6 +32,10 @@ glm::dvec3 direction(double angle) {
   return {std::cos(angle), std::sin(angle), 0};
 }
 
+double wrapped(double radians) {
+  return test::wrap_radians(radians);
+}
+
 Readings crushed(const Sheet& sheet, const glm::dmat4& pose = glm::dmat4(1)) {
   Passes passes(sheet);
   passes.pose({pose});
@@ -113,6 +117,48 @@ TEST_F(Bias, ALengthOfOneIsCutAndStaysFinite) {
       EXPECT_TRUE(std::isfinite(glm::length(now.wave[v])));
     }
   }
+}
+
+// A solved field as bias: pulled flat its waves are gone; let go, each begins again with its own phase,
+// however often, and so has the same height everywhere. A wave that the animation makes across it is not the
+// field's and takes its phase from its neighbours or from nothing, as any.
+TEST_F(Bias, SolvedWavesComeBackAsTheyWere) {
+  Sheet sheet = painted({std::sqrt(0.2), 0, 0});
+  sheet.waves.start_direction.assign(sheet.size(), {1, 0, 0});
+  for (std::size_t v = 0; v < sheet.size(); ++v)
+    sheet.waves.start_phase.push_back(wrapped(2 * pi / (0.8 * W) * sheet.surface.rest[v].x + 0.4));
+  Passes passes(sheet);
+  const auto at = [&](const glm::dvec3& scale) {
+    passes.pose({glm::scale(glm::dmat4(1), scale)});
+    passes.crush(0.025);
+    passes.relax({});
+    return passes.read();
+  };
+  const Readings first = at({1, 1, 1});
+  for (int round = 0; round < 3; ++round) {
+    const Readings flat = at({1.4, 1, 1});
+    for (std::size_t v = 0; v < sheet.size(); ++v) EXPECT_EQ(flat.status[v], 0) << v;
+    if (round == 2) at({1.4, 0.7, 1});  // waves along y, and then back
+    if (round == 2) at({1.4, 1, 1});
+    const Readings back = at({1, 1, 1});
+    for (std::size_t v = 0; v < sheet.size(); ++v) {
+      EXPECT_EQ(back.status[v], 1) << v;
+      EXPECT_EQ(back.height[v], first.height[v]) << v;
+      // −k counts the phase the other way.
+      const double sign = glm::dot(back.direction[v], first.direction[v]) < 0 ? -1 : 1;
+      EXPECT_NEAR(std::abs(glm::dot(back.direction[v], first.direction[v])), 1, 1e-5) << v;
+      EXPECT_NEAR(test::wrap_radians(sign * back.phase[v] - sheet.waves.start_phase[v]), 0, 1e-5)
+          << v;  // single precision, of 26 rad
+    }
+  }
+  at({1.4, 1, 1});
+  const Readings across = at({1.4, 0.7, 1});
+  double as_solved = 0;
+  for (std::size_t v = 0; v < sheet.size(); ++v) {
+    EXPECT_EQ(across.status[v], 1) << v;
+    as_solved += std::abs(std::abs(across.phase[v]) - std::abs(sheet.waves.start_phase[v])) < 1e-6 ? 1 : 0;
+  }
+  EXPECT_EQ(as_solved, 0);
 }
 
 }  // namespace

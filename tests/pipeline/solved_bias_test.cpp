@@ -53,13 +53,16 @@ class SolvedBias : public test::OpenGlTest {
         auto& phase = frame.phase.emplace_back();
         for (std::size_t c = 0; c < 3; ++c) {
           const glm::dvec3& x = frame.base[face[c]];
-          phase[c] = 2 * pi / wave * (std::cos(turn) * x.x + std::sin(turn) * x.y);
+          phase[c] = SolvedBias::phase(x.x, x.y, static_cast<int>(clip->frames.size()));
         }
       }
     }
     memory_.solved = clip;
   }
   static constexpr double turn = 20 * pi / 180;
+  static double phase(double x, double y, int frame) {
+    return 2 * pi / wave * (std::cos(turn) * x + std::sin(turn) * y) + 0.9 * frame;
+  }
   test::TemporaryFolder folder_;
   scene::InMemory memory_;
 };
@@ -80,7 +83,16 @@ TEST_F(SolvedBias, WavesAreTheFieldsWhateverTheStrain) {
         // Gradients of vertices are found in twelve rounds, each of which halves what is wrong at the rim.
         const Eigen::Vector3d k = now.frames.basis(v) * now.wavenumbers.col(v) / run.scene.units.metres;
         EXPECT_NEAR(k.norm() * wave, 1, 1e-3) << frame;
-        EXPECT_NEAR(std::abs(k.x() * std::cos(turn) + k.y() * std::sin(turn)) * wave, 1, 1e-3) << frame;
+        const double along = k.x() * std::cos(turn) + k.y() * std::sin(turn);
+        EXPECT_NEAR(std::abs(along) * wave, 1, 1e-3) << frame;
+        // And the phase of this frame's field, which is another than the frame's before.
+        const double x = memory_.solved->frames[static_cast<std::size_t>(frame - 1)]
+                             .base[static_cast<std::size_t>(v)]
+                             .x,
+                     y = side * j / cells;
+        EXPECT_NEAR(std::remainder(std::copysign(1, along) * now.phases[v] - phase(x, y, frame), 2 * pi), 0,
+                    1e-5)
+            << frame;
       }
   }
 }
