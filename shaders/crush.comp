@@ -5,6 +5,7 @@
 
 layout(binding = 17) uniform samplerBuffer rest_rows;  // (S + μE)⁻¹ v_i, then v_i; an entry a neighbour
 layout(binding = 18) uniform samplerBuffer biases;     // q: painted wrinkles of the rest pose; φ of a solved field, whether there is one
+layout(binding = 19) uniform samplerBuffer carried;    // ĝ, unit: along which a carried field takes up the animation's part
 layout(std430, binding = 0) writeonly buffer States { vec4 states_out[]; };
 layout(std430, binding = 1) writeonly buffer Waves { vec4 waves_out[]; };
 layout(std430, binding = 2) writeonly buffer WorldWaves { vec4 world_waves_out[]; };
@@ -14,6 +15,7 @@ uniform uint vertex_count;
 uniform float dead_zone;
 uniform bool always_set;  // relax mode `descent`
 uniform bool unstrained;  // M = E: only the bias shortens
+uniform bool carries;     // there is a carried field
 
 const float floor_of_r = 0.05;         // r_min
 const float isotropy = 0.01;           // below this g a direction is uncertain
@@ -33,6 +35,12 @@ void main() {
         vec4 rest = texelFetch(rest_rows, int(i));
         m0 += (dot(t, e) - rest.z) * rest.xy;
         m1 += (dot(b, e) - rest.w) * rest.xy;
+    }
+    if (carries) {  // M(E + (1/|Mĝ| − 1) ĝ⊗ĝ): as long along ĝ as at rest
+        vec2 along = texelFetch(carried, int(v)).xy, moved = vec2(dot(m0, along), dot(m1, along));
+        vec2 more = (1.0 / max(length(moved), floor_of_r) - 1.0) * along;
+        m0 += moved.x * more;
+        m1 += moved.y * more;
     }
     vec4 bias = texelFetch(biases, int(v));
     vec2 q = bias.xy;  // M(E − q⊗q)

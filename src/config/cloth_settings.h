@@ -131,7 +131,9 @@ void bias_keys(Row& row) {
       "names one for every frame, over the surface of that frame; it goes with use = \"direct\".");
   row("use", &S::use, enumeration<FieldUse>({{"bias", FieldUse::bias}, {"direct", FieldUse::direct}}),
       "How a field is used: its waves start and are then crush's and relax's (bias), or amplitude times "
-      "cosine as it was solved, carried by the surface, with the animation's own waves on top (direct).");
+      "cosine as it was solved, carried by the surface: deeper where it is pressed along the waves, flat "
+      "where "
+      "it is pulled, with the animation's own waves across them (direct).");
 }
 
 enum class SolveMethod { direct, bias, passes };
@@ -160,7 +162,8 @@ void solve_keys(Row& row) {
       "crush "
       "and relax, with the field of each frame's base as its bias, so that heights, directions and lengths "
       "are "
-      "the field's and phases relax's (bias); or the waves of crush and relax against the rest pose, which "
+      "the field's, and relax evens the phases out (bias); or the waves of crush and relax against the rest "
+      "pose, which "
       "cost less (passes).",
       {"--method", "direct|bias|passes"});
   row("quality", &S::quality,

@@ -30,6 +30,9 @@ struct VertexWaves {
   // back after they were gone. Empty: none.
   std::vector<glm::dvec3> start_direction = {};
   std::vector<double> start_phase = {};
+  // Along which a carried field takes up what the animation does, so that crush has no part in it: unit, of
+  // the rest pose and tangent to it, 0 elsewhere. Empty: nowhere.
+  std::vector<glm::dvec3> carried = {};
   // What the animation does to the cloth has no part in its waves: `bias` is of each pose itself, tangent to
   // it, as W is.
   bool unstrained = false;

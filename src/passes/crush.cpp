@@ -12,6 +12,8 @@ void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set, 
   surface.bind_for_reading();
   surface.rest_rows.bind_items(SurfaceBuffers::own_unit, gpu::Buffer::Item::vec4);
   surface.biases.bind_items(SurfaceBuffers::own_unit + 1, gpu::Buffer::Item::vec4);
+  const bool carries = surface.carried.bytes() > 0;
+  if (carries) surface.carried.bind_items(SurfaceBuffers::own_unit + 2, gpu::Buffer::Item::vec2);
   surface.states.bind_storage(0);
   surface.waves.bind_storage(1);
   surface.world_waves.bind_storage(2);
@@ -22,6 +24,7 @@ void CrushPass::run(SurfaceBuffers& surface, double dead_zone, bool always_set, 
   glUniform1f(crush_.uniform("dead_zone"), static_cast<float>(dead_zone));
   glUniform1i(crush_.uniform("always_set"), always_set);
   glUniform1i(crush_.uniform("unstrained"), unstrained);
+  glUniform1i(crush_.uniform("carries"), carries);
   gpu::dispatch(crush_, surface.vertex_count);
 }
 

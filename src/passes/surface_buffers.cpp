@@ -146,6 +146,12 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface, const RestFrames& rest,
   }));
   rest_rows = gpu::Buffer(rows);
   biases = gpu::Buffer(mapped(count, [&](std::size_t v) { return bias_in_frame(vertex_waves, rest, v); }));
+  if (!vertex_waves.carried.empty())
+    carried = gpu::Buffer(mapped(count, [&](std::size_t v) {
+      const glm::dvec3 &k = vertex_waves.carried[v], &t = rest.tangent[v];
+      const glm::dvec2 flat(glm::dot(t, k), glm::dot(glm::cross(rest.normal[v], t), k));
+      return glm::vec2(flat != glm::dvec2(0) ? glm::normalize(flat) : flat);
+    }));
 
   render_vertices = gpu::Buffer(mapped(surface.render_vertices.size(), [&](std::size_t i) {
     const RenderVertex& vertex = surface.render_vertices[i];

@@ -29,6 +29,7 @@ struct SurfaceBuffers {
   std::size_t vertex_count = 0, target_count = 0, triangle_count = 0;
   gpu::Buffer bind_places, influences, target_deltas;
   gpu::Buffer offsets, neighbours, rest_rows, constants, biases;
+  gpu::Buffer carried;  // VertexWaves::carried in (t, b), or nothing
   gpu::Buffer corner_offsets, corners, tangent_neighbours;
   gpu::Buffer render_vertices, triangle_corners;
   gpu::Buffer render_colours;  // one per render vertex where a part has colours, else nothing

@@ -44,6 +44,7 @@ Hash start_hash(const LoadedScene& scene) {
     add_items(hash, scene.waves.start_direction);
     add_items(hash, scene.waves.start_phase);
   }
+  if (!scene.waves.carried.empty()) add_items(hash, scene.waves.carried);
   const auto& relax = scene.settings.relax;
   hash.add(relax.mode)
       .add(relax.rounds)

@@ -143,8 +143,11 @@ void LoadedScene::take_field(const io::WrinkleField& given, const glm::dmat4& to
     return paint::field_as_bias(surface(), rest, field, settings.wrinkles.dead_zone, waves);
   const RestFrames own = rest;
   smooth_all();
-  field_mask_ = waves.mask;
-  waves.field = drawn(animation.surface().rest, own, field);
+  field_mask_.assign(waves.mask.size(), 1.0);
+  carried_.emplace(surface(), drawn(animation.surface().rest, own, field), waves.mask);
+  waves.carried = carried_->along();
+  waves.field = carried_->in(scene::posed(surface(), posed_at(animation, 1).drawn));
+  field_frame_ = 1;
 }
 
 // Each frame's field has all the waves of its surface: it was solved for the compression of that surface, so
@@ -294,8 +297,9 @@ std::vector<FieldTriangle> LoadedScene::field_at(const std::vector<glm::dvec3>& 
 void LoadedScene::take_field(int step) {
   const int frame = frame_of_step(step);
   if (!has_field_a_frame() || frame == field_frame_) return;
-  pose(step);
-  waves.field = field_at(poses_.at(static_cast<std::size_t>(step - first_pose_)).coarse, frame);
+  const scene::Pose& here = pose(step);
+  waves.field = carried_ ? carried_->in(scene::posed(surface(), here))
+                         : field_at(poses_.at(static_cast<std::size_t>(step - first_pose_)).coarse, frame);
   field_frame_ = frame;
 }
 
@@ -304,7 +308,8 @@ void LoadedScene::visit_fields(const std::function<void(const std::vector<FieldT
   scene::Animation posing(model, choice_of(settings));
   for (int frame = 1; frame <= posing.timeline().frame_count; ++frame) {
     if (has_solved_waves_ && solved_->frames[static_cast<std::size_t>(frame - 1)].amplitude.empty()) continue;
-    work(field_at(posed_at(posing, frame).coarse, frame));
+    const Posed posed = posed_at(posing, frame);
+    work(carried_ ? carried_->in(scene::posed(surface(), posed.drawn)) : field_at(posed.coarse, frame));
   }
 }
 

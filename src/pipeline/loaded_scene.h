@@ -16,6 +16,7 @@
 #include "mesh/surface.h"
 #include "mesh/vertex_waves.h"
 #include "paint/canvas.h"
+#include "paint/carried_field.h"
 #include "paint/field.h"
 #include "passes/render.h"
 #include "pipeline/frame_fields.h"
@@ -51,10 +52,10 @@ class LoadedScene {
   // p of every welded vertex after these strokes (paint/canvas.h).
   std::vector<glm::dvec3> painted(const config::PaintSettings& paint) const;
 
-  // Whether every frame has its own field; waves.field is then that of the last step, at first that of
-  // frame 1. The pose of the step must be available. Throws Error(bad_input) where the field belongs to
-  // another surface than that frame's.
-  bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_; }
+  // Whether every frame has its own field, or one that is carried is as each pose leaves it; waves.field is
+  // then that of the last step, at first that of frame 1. The pose of the step must be available. Throws
+  // Error(bad_input) where the field belongs to another surface than that frame's.
+  bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_ || carried_; }
   void take_field(int step);
   // Whether every frame has its own bias, of the base surface that is its pose; waves has that of the last
   // step that was taken, at first frame 1's. The pose of the step must be available. Gives the frames that
@@ -103,7 +104,8 @@ class LoadedScene {
   std::vector<FieldTriangle> drawn_smooth(const SolvedClip::Frame& field) const;
   int smooth_levels_ = 0;
   std::optional<SmoothSurface> smooth_;
-  FrameFields fields_;  // one a frame, or none
+  FrameFields fields_;                          // one a frame, or none
+  std::optional<paint::CarriedField> carried_;  // one field under the animation
   std::shared_ptr<const SolvedClip> solved_;
   std::vector<double> own_wavelength_;  // W where a bias of frames has none
   std::vector<double> field_mask_;      // strength of each welded vertex, of fields

@@ -77,6 +77,7 @@ ReferenceScene::ReferenceScene(const LoadedScene& loaded) : scene(loaded) {
 void ReferenceScene::take_bias() {
   wavelength = vector(scene.waves.wavelength, 1 / scene.units.metres);
   bias.p = columns(scene.waves.bias.size(), [&](std::size_t v) { return scene.waves.bias[v]; });
+  bias.carried = columns(scene.waves.carried.size(), [&](std::size_t v) { return scene.waves.carried[v]; });
   bias.phase.assign(scene.waves.start_direction.size(), std::nullopt);
   for (std::size_t v = 0; v < bias.phase.size(); ++v) {
     if (scene.waves.start_direction[v] == glm::dvec3(0)) continue;

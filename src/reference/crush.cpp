@@ -86,6 +86,12 @@ Matrix2d biased(const Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis
   return M * shortening;
 }
 
+Matrix2d without_stretch_along(const Matrix2d& M, const Vector2d& direction) {
+  const double stretch = std::max((M * direction).norm(), least_singular_value);
+  const Matrix2d change = Matrix2d::Identity() + (1 / stretch - 1) * direction * direction.transpose();
+  return M * change;
+}
+
 void begin_as_solved(const Vector2d& q, double phase, CrushResult& vertex) {
   if (vertex.status != Status::fresh || std::abs(vertex.direction.dot(q)) < std::sqrt(0.5) * q.norm()) return;
   vertex.status = Status::set;
@@ -116,6 +122,9 @@ std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_fram
       ++column;
     }
     Matrix2d M = regression(v, posed);
+    if (bias.carried.cols() > 0 && !bias.carried.col(vertex).isZero(0))
+      M = without_stretch_along(
+          M, (rest_frames.basis(vertex).transpose() * bias.carried.col(vertex)).normalized());
     if (bias.p.cols() > 0) M = biased(M, rest_frames.basis(vertex), bias.p.col(vertex));
     results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings, previous[index]));
     if (!bias.phase.empty() && bias.phase[index] && previous[index].status == Status::idle)

@@ -29,6 +29,7 @@ struct CrushState {
 struct Bias {
   Eigen::Matrix3Xd p;                        // as columns
   std::vector<std::optional<double>> phase;  // φ of the wave along p, radians: where there is a solved field
+  Eigen::Matrix3Xd carried;  // ĝ, as columns: unit, or 0; along which a carried field takes up the animation
 };
 
 struct CrushResult {
@@ -64,6 +65,9 @@ CrushResult crush_vertex(const Eigen::Matrix2d& M, double wavelength, double mas
 // (section 7).
 Eigen::Matrix2d biased(const Eigen::Matrix2d& M, const Eigen::Matrix<double, 3, 2>& rest_basis,
                        const Eigen::Vector3d& p);
+
+// M(E + (1/|Mĝ| − 1) ĝ⊗ĝ), ĝ in (t, b), unit: as long along ĝ as at rest; |Mĝ| counts as .05 at least.
+Eigen::Matrix2d without_stretch_along(const Eigen::Matrix2d& M, const Eigen::Vector2d& direction);
 
 // A wave that was idle and comes back within 45 degrees of the solved wave along q (in (t, b)) has that one's
 // phase, with the sign that its k has to q; it is set at once.

@@ -107,5 +107,73 @@ INSTANTIATE_TEST_SUITE_P(
                  "render.backdrop"}),
     [](const auto& mutation) { return mutation.param.name; });
 
+// A tube that is untwisted and twisted again, under a solved field: as bias, and carried.
+class FieldMutations : public Program, public ::testing::WithParamInterface<Mutation> {
+ protected:
+  static const TemporaryFolder& tube() {
+    static const TemporaryFolder folder;
+    static const bool made = [] {
+      const auto path = [](const std::string& name) { return (folder / name).string(); };
+      EXPECT_EQ(plisse({"drape", "--example", "twisted-cylinder", "--steps", "4", "--frames", "1-4", "-o",
+                        path("tube_####.ply")})
+                    .code,
+                0);
+      EXPECT_EQ(plisse({"wrinkle", path("tube_0004.ply"), "-o", path("field.ply")}).code, 0);
+      for (const auto& [frame, from] : {std::pair(1, 4), {2, 1}, {3, 4}})
+        std::filesystem::copy(path("tube_000" + std::to_string(from) + ".ply"),
+                              path("model_" + std::to_string(frame) + ".ply"));
+      for (const std::string use : {"bias", "direct"})
+        write_text(folder / (use + ".toml"),
+                   "[model]\npath = \"model_#.ply\"\n[wrinkles]\ndead_zone = 0.025\n[bias]\nfield = "
+                   "\"field.ply\"\nuse = \"" +
+                       use + "\"\n");
+      return true;
+    }();
+    EXPECT_TRUE(made);
+    return folder;
+  }
+};
+
+TEST_P(FieldMutations, AreNoticed) {
+  const Mutation& mutation = GetParam();
+  const TemporaryFolder& folder = tube();
+  const TemporaryFolder own;
+  std::filesystem::copy(test::source_file("shaders"), own / "shaders",
+                        std::filesystem::copy_options::recursive);
+  if (!mutation.file.empty()) {
+    const auto path = own / ("shaders/" + mutation.file);
+    std::string text = read_text(path);
+    const std::size_t at = text.find(mutation.from);
+    ASSERT_NE(at, std::string::npos) << mutation.file << " has no '" << mutation.from
+                                     << "' any more: mend this test";
+    text.replace(at, mutation.from.size(), mutation.to);
+    write_text(path, text);
+  }
+  // The pass is the scene here; waves fade below four pixels.
+  const std::string report = (own / "report.json").string();
+  const Outcome outcome =
+      plisse({"verify", (folder / (mutation.pass + ".toml")).string(), "--size", "280x350", "--frames", "1-3",
+              "--shaders", (own / "shaders").string(), "--json", report});
+  EXPECT_EQ(outcome.code, mutation.file.empty() ? 0 : 1) << outcome.out << outcome.err;
+  const auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_EQ(json["passes"][mutation.file.empty() ? "crush" : mutation.part]["ok"], mutation.file.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, FieldMutations,
+    ::testing::Values(
+        Mutation{"NothingAsBias", "", "", "", "bias"}, Mutation{"NothingCarried", "", "", "", "direct"},
+        Mutation{"PhaseComesBack", "crush.comp", "along < 0.0 ? -bias.z : bias.z", "bias.z + 0.1", "bias",
+                 "crush.phase"},
+        Mutation{"ComesBackAsFresh", "crush.comp", "bias.w > 0.0 &&", "false &&", "bias", "crush.status"},
+        Mutation{"StretchAlongCarried", "crush.comp", "(1.0 / max(", "(1.01 / max(", "direct", "crush.r"},
+        Mutation{"CarriedPlace", "displacement.comp", "dot(b, field_amplitude)",
+                 "1.01 * dot(b, field_amplitude)", "direct", "displacement.relief"},
+        Mutation{"CarriedSlope", "displacement.comp", "c * swell - 2.0 * pi", "c * swell - 1.98 * pi",
+                 "direct", "displacement.normal"},
+        Mutation{"CarriedTurns", "render.frag", "2.0 * pi * (turns", "1.9 * pi * (turns", "direct",
+                 "render"}),
+    [](const auto& mutation) { return mutation.param.name; });
+
 }  // namespace
 }  // namespace plisse::test
