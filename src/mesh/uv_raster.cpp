@@ -13,21 +13,6 @@ namespace {
 
 constexpr double rounding = 1e-6;  // of single-precision coordinates
 
-// Grows from the parts' uv to the square of whole tiles that holds it.
-void take_square(UvRaster& raster, const glm::dvec2& low, const glm::dvec2& high) {
-  raster.corner = glm::floor(low + rounding);
-  const glm::dvec2 reach = glm::ceil(high - rounding) - raster.corner;
-  const double side = std::max({reach.x, reach.y, 1.0});
-  if (!(side <= most_tiles)) {
-    throw Error(
-        ExitCode::bad_input,
-        fmt::format("uv reaches from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}); a texture covers at most {} "
-                    "tiles a side: leave the mesh that is far off out with --exclude",
-                    low.x, low.y, high.x, high.y, most_tiles));
-  }
-  raster.side = static_cast<int>(side);
-}
-
 void draw(UvRaster& raster, std::size_t triangle, const std::array<glm::dvec2, 3>& uv) {
   const glm::dvec2 e1 = uv[1] - uv[0], e2 = uv[2] - uv[0];
   const double area = e1.x * e2.y - e1.y * e2.x;
@@ -90,6 +75,22 @@ void widen(UvRaster& raster, int rounds) {
 
 }  // namespace
 
+UvSquare uv_square(const glm::dvec2& low, const glm::dvec2& high, const std::string& instead) {
+  UvSquare square;
+  square.corner = glm::floor(low + rounding);
+  const glm::dvec2 reach = glm::ceil(high - rounding) - square.corner;
+  const double side = std::max({reach.x, reach.y, 1.0});
+  if (!(side <= most_tiles)) {
+    throw Error(
+        ExitCode::bad_input,
+        fmt::format("uv reaches from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}); a texture covers at most {} "
+                    "tiles a side: {}",
+                    low.x, low.y, high.x, high.y, most_tiles, instead));
+  }
+  square.side = static_cast<int>(side);
+  return square;
+}
+
 UvRaster uv_raster(const Surface& surface, int size, int widened) {
   UvRaster raster;
   raster.size = size;
@@ -119,9 +120,11 @@ UvRaster uv_raster(const Surface& surface, int size, int widened) {
                 without.empty() ? std::string("nothing of the model wrinkles, so there is nothing to bake")
                                 : fmt::format("mesh '{}' has no uv; a map needs them", without));
   }
-  take_square(raster, low, high);
+  const UvSquare square = uv_square(low, high, "leave the mesh that is far off out with --exclude");
+  raster.corner = square.corner;
+  raster.side = square.side;
   for_triangles([&](std::size_t t, std::array<glm::dvec2, 3> uv) {
-    for (glm::dvec2& at : uv) at = (at - raster.corner) / static_cast<double>(raster.side);
+    for (glm::dvec2& at : uv) at = square.place(at);
     draw(raster, t, uv);
   });
   widen(raster, widened);

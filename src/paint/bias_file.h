@@ -24,10 +24,13 @@ std::vector<glm::dvec3> read_bias_ply(const std::filesystem::path& path, const S
 // the angle of p from growing u toward growing v in the tangent plane (doubled because p and −p are the same,
 // and so that texels may be averaged); blue is |p|. The texel at a vertex has exactly its p; texels in
 // between are interpolated; islands are widened by eight texels, so that filters do not reach the background
-// (0.5, 0.5, 0). Throws Error(bad_input) where uv is not suitable: there is none, it leaves 0…1, or different
-// vectors belong to one texel (overlapping islands, or a size too small).
+// (0.5, 0.5, 0). Where uv leaves 0…1 the texture covers the square of whole tiles that holds it, as a baked
+// map does (mesh/uv_raster.h). A vertex whose texel belongs to another one already, where islands overlap or
+// texels are too large, has the nearest free one, which the model and the size alone decide: so it is read
+// back exactly. `moved`: how many have. Throws Error(bad_input) where there is no uv, it reaches over more
+// than most_tiles, or there are fewer texels than vertices.
 io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
-                      int size);
+                      int size, std::size_t* moved = nullptr);
 
 // p of every welded vertex, from the texels of its uv (the mean over its seams); 0 where it has no uv. Throws
 // Error(bad_input) for a picture that is not square, or a model without uv. `name` is for messages.

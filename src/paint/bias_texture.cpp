@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "base/error.h"
 #include "io/image.h"
+#include "mesh/uv_raster.h"
 #include "paint/bias_file.h"
 #include "paint/uv_frames.h"
 
@@ -51,6 +53,7 @@ class Texture {
     };
     return at(place(uv.x), size_ - 1 - place(uv.y));
   }
+  int size() const { return size_; }
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x);
   }
@@ -94,38 +97,112 @@ class Texture {
 
 }  // namespace
 
-io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
-                      int size) {
-  const auto frames = uv_frames(surface, rest);
-  Texture texture(size);
-  bool any = false;
+namespace {
+
+// Where each render vertex of a part with uv is in a texture, and its frame there; decided by the model and
+// the size alone, so that who reads a texture finds what was written.
+struct Places {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  UvSquare square;
+  std::vector<UvFrame> frames;     // where triangles have no area in uv, the rest pose's own
+  std::vector<std::size_t> texel;  // or none
+  std::size_t moved = 0;           // that are not at their own uv
+};
+
+UvSquare square_of(const Surface& surface) {
+  glm::dvec2 low(INFINITY), high(-INFINITY);
   for (const Part& part : surface.parts) {
     if (!part.has_uv) continue;
-    any = true;
+    for (std::size_t i = 3 * part.first_triangle; i < 3 * (part.first_triangle + part.triangle_count); ++i) {
+      const glm::dvec2 uv(surface.render_vertices[surface.triangles[i]].uv);
+      low = glm::min(low, uv), high = glm::max(high, uv);
+    }
+  }
+  if (!(low.x <= high.x))
+    throw Error(ExitCode::bad_input, "the model has no uv; what is painted fits into no texture");
+  return uv_square(low, high, "move the islands closer together");
+}
+
+// The nearest texel to `start` that is not taken, by rings; `ring`: the first that may have one.
+std::size_t free_texel(const Texture& texture, std::size_t start, int& ring,
+                       const std::unordered_map<std::size_t, std::uint32_t>& owner) {
+  const int size = texture.size(), x = static_cast<int>(start) % size, y = static_cast<int>(start) / size;
+  for (; ring < size; ++ring) {
+    for (int dy = -ring; dy <= ring; ++dy) {
+      const bool edge = std::abs(dy) == ring;
+      for (int dx = -ring; dx <= ring; dx += edge ? 1 : 2 * ring) {
+        if (x + dx < 0 || y + dy < 0 || x + dx >= size || y + dy >= size) continue;
+        const std::size_t at = texture.at(x + dx, y + dy);
+        if (!owner.contains(at)) return at;
+      }
+    }
+  }
+  return Places::none;
+}
+
+Places places_in(const Surface& surface, const RestFrames& rest, const Texture& texture) {
+  Places places;
+  places.square = square_of(surface);
+  places.frames = uv_frames(surface, rest);
+  places.texel.assign(surface.render_vertices.size(), Places::none);
+  std::unordered_map<std::size_t, std::uint32_t> owner;
+  std::unordered_map<std::size_t, int> rings;
+  const auto take = [&](std::uint32_t i) {
+    const RenderVertex& vertex = surface.render_vertices[i];
+    UvFrame& frame = places.frames[i];
+    if (!frame.valid()) {
+      frame.along_u = rest.tangent[vertex.welded];
+      frame.along_v = glm::cross(rest.normal[vertex.welded], frame.along_u);
+    }
+    const std::size_t start = texture.index(places.square.place(vertex.uv));
+    const auto [found, first] = owner.try_emplace(start, i);
+    places.texel[i] = start;
+    if (first) return;
+    const UvFrame& its = places.frames[found->second];
+    constexpr double same = 1e-4;  // of unit vectors: a hundredth of a degree
+    if (surface.render_vertices[found->second].welded == vertex.welded &&
+        glm::distance(its.along_u, frame.along_u) < same && glm::distance(its.along_v, frame.along_v) < same)
+      return;
+    int& ring = rings.try_emplace(start, 1).first->second;
+    places.texel[i] = free_texel(texture, start, ring, owner);
+    if (places.texel[i] == Places::none)
+      throw Error(
+          ExitCode::bad_input,
+          fmt::format("{0} vertices need a texel each; a texture of {1}×{1} has too few: raise texture_size",
+                      surface.render_vertices.size(), texture.size()));
+    owner.emplace(places.texel[i], i);
+    ++places.moved;
+  };
+  for (const Part& part : surface.parts) {
+    if (!part.has_uv) continue;
+    for (std::size_t c = 3 * part.first_triangle; c < 3 * (part.first_triangle + part.triangle_count); ++c)
+      if (places.texel[surface.triangles[c]] == Places::none) take(surface.triangles[c]);
+  }
+  return places;
+}
+
+}  // namespace
+
+io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std::vector<glm::dvec3>& bias,
+                      int size, std::size_t* moved) {
+  Texture texture(size);
+  const Places places = places_in(surface, rest, texture);
+  for (const Part& part : surface.parts) {
+    if (!part.has_uv) continue;
     for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
       std::array<glm::dvec2, 3> uv;
       std::array<const UvFrame*, 3> frame;
       std::array<glm::dvec3, 3> p;
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t id = surface.triangles[3 * t + c];
-        uv[c] = surface.render_vertices[id].uv;
-        frame[c] = &frames[id];
+        uv[c] = places.square.place(surface.render_vertices[id].uv);
+        frame[c] = &places.frames[id];
         p[c] = on_the_side_of(p[0], bias[surface.render_vertices[id].welded]);
         if (c == 0) p[0] = bias[surface.render_vertices[id].welded];
-        constexpr double rounding = 1e-6;  // of single precision coordinates
-        if (!(uv[c].x >= -rounding && uv[c].y >= -rounding && uv[c].x <= 1 + rounding &&
-              uv[c].y <= 1 + rounding)) {
-          throw Error(
-              ExitCode::bad_input,
-              fmt::format(
-                  "mesh '{}': uv ({:.4g}, {:.4g}) lies outside 0…1, a texture cannot hold what is painted "
-                  "there",
-                  part.mesh, uv[c].x, uv[c].y));
-        }
       }
       const glm::dvec2 e1 = uv[1] - uv[0], e2 = uv[2] - uv[0];
       const double area = e1.x * e2.y - e1.y * e2.x;
-      if (area == 0 || !frame[0]->valid() || !frame[1]->valid() || !frame[2]->valid()) continue;
+      if (area == 0) continue;
       const auto range = [&](double a, double b, double c) {
         const auto clamped = [&](double x) {
           return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size)));
@@ -152,34 +229,15 @@ io::Image encode_bias(const Surface& surface, const RestFrames& rest, const std:
       }
     }
   }
-  if (!any) throw Error(ExitCode::bad_input, "the model has no uv; what is painted fits into no texture");
-
-  // Last the texels at vertices, with their exact vectors; if two vertices with different vectors have the
-  // same texel, the texture cannot represent them.
-  std::vector<std::uint32_t> owner(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
-                                   0xffffffffU);
-  for (std::uint32_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].valid()) continue;
-    const RenderVertex& vertex = surface.render_vertices[i];
-    const glm::dvec3 p = bias[vertex.welded];
-    const Texel texel = encoded({glm::dot(p, frames[i].along_u), glm::dot(p, frames[i].along_v)});
-    const std::size_t at = texture.index(vertex.uv);
-    if (owner[at] != 0xffffffffU) {
-      const glm::dvec2 mine = decoded(texel), other = decoded(texture[at]);
-      if (std::min(glm::distance(mine, other), glm::distance(mine, -other)) > 1.0 / 255) {
-        throw Error(
-            ExitCode::bad_input,
-            fmt::format(
-                "vertices {} and {} are painted differently but share a texel at uv ({:.4g}, {:.4g}): "
-                "islands overlap there, or {} texels a side are too few",
-                surface.render_vertices[owner[at]].welded, vertex.welded, vertex.uv.x, vertex.uv.y, size));
-      }
-      continue;
-    }
-    owner[at] = i;
-    texture.set(at, texel);
+  // Last the texels of vertices, with their exact vectors.
+  for (std::size_t i = 0; i < places.texel.size(); ++i) {
+    if (places.texel[i] == Places::none) continue;
+    const glm::dvec3 p = bias[surface.render_vertices[i].welded];
+    texture.set(places.texel[i],
+                encoded({glm::dot(p, places.frames[i].along_u), glm::dot(p, places.frames[i].along_v)}));
   }
   texture.widen();
+  if (moved) *moved = places.moved;
   return texture.image();
 }
 
@@ -190,25 +248,26 @@ std::vector<glm::dvec3> decode_bias(const Surface& surface, const RestFrames& re
                 fmt::format("{}: is {}x{} pixels; a texture of painted wrinkles is square", name, image.width,
                             image.height));
   }
-  const auto frames = uv_frames(surface, rest);
-  const Texture texture(image.width);
+  Places places;
+  try {
+    places = places_in(surface, rest, Texture(image.width));
+  } catch (const Error& error) {
+    throw Error(error.code, fmt::format("{}: is a picture in uv, but {}", name, error.what()));
+  }
   std::vector<glm::dvec3> bias(surface.vertex_count(), glm::dvec3(0));
   std::vector<int> counts(surface.vertex_count(), 0);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].valid()) continue;
-    const RenderVertex& vertex = surface.render_vertices[i];
-    const std::uint8_t* rgba = &image.rgba[4 * texture.index(vertex.uv)];
+  for (std::size_t i = 0; i < places.texel.size(); ++i) {
+    if (places.texel[i] == Places::none) continue;
+    const std::uint8_t* rgba = &image.rgba[4 * places.texel[i]];
     const glm::dvec2 q = decoded({rgba[0], rgba[1], rgba[2]});
-    glm::dvec3& p = bias[vertex.welded];
-    p += on_the_side_of(p, q.x * frames[i].along_u + q.y * frames[i].along_v);
-    ++counts[vertex.welded];
+    const std::uint32_t v = surface.render_vertices[i].welded;
+    bias[v] += on_the_side_of(bias[v], q.x * places.frames[i].along_u + q.y * places.frames[i].along_v);
+    ++counts[v];
   }
   for (std::size_t v = 0; v < bias.size(); ++v) {
     if (counts[v] > 0) bias[v] /= counts[v];
     if (glm::length(bias[v]) > 0.99) bias[v] *= 0.99 / glm::length(bias[v]);
   }
-  if (std::all_of(counts.begin(), counts.end(), [](int count) { return count == 0; }))
-    throw Error(ExitCode::bad_input, fmt::format("{}: is a picture in uv, but the model has no uv", name));
   return bias;
 }
 

@@ -34,6 +34,16 @@ config::SceneSettings scene_to_paint(const config::PaintSettings& paint) {
   return settings;
 }
 
+std::size_t painted_without_uv(const Surface& surface, const std::vector<glm::dvec3>& bias) {
+  std::vector<bool> has(bias.size(), false);
+  for (const Part& part : surface.parts)
+    for (std::size_t c = 3 * part.first_triangle; c < 3 * (part.first_triangle + part.triangle_count); ++c)
+      if (part.has_uv) has[surface.render_vertices[surface.triangles[c]].welded] = true;
+  std::size_t lost = 0;
+  for (std::size_t v = 0; v < bias.size(); ++v) lost += bias[v] != glm::dvec3(0) && !has[v] ? 1 : 0;
+  return lost;
+}
+
 }  // namespace
 
 PaintedSurface paint_in_memory(const config::PaintSettings& paint) {
@@ -62,9 +72,19 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
   paint::write_bias_ply(ply, scene.surface(), bias);
   written(ply, "bias");
   try {
-    const io::Image texture = paint::encode_bias(scene.surface(), scene.rest, bias, paint.texture_size);
+    std::size_t moved = 0;
+    const io::Image texture =
+        paint::encode_bias(scene.surface(), scene.rest, bias, paint.texture_size, &moved);
     io::write_png(folder / "bias.png", texture);
     written(folder / "bias.png", "texture");
+    if (moved > 0)
+      log::warn(fmt::format(
+          "bias.png: {} vertices have the texel beside their own, because islands of uv overlap or {} "
+          "texels a side are few; [bias] file reads it right, other programs see the first island there",
+          moved, paint.texture_size));
+    if (const std::size_t lost = painted_without_uv(scene.surface(), bias); lost > 0)
+      log::warn(fmt::format("bias.png: {} painted vertices have no uv and are not in it; {} has them", lost,
+                            ply.string()));
   } catch (const Error& error) {
     if (error.code != ExitCode::bad_input) throw;
     log::warn(fmt::format("no uv texture: {}; {} has it all", error.what(), ply.string()));

@@ -143,11 +143,32 @@ TEST(BiasFile, RefusesWhatDoesNotFit) {
               HasSubstr("no uv"));
   EXPECT_THAT(test::error_of([&] { encode_bias(bare.surface, bare.rest, bias, 64); }), HasSubstr("no uv"));
   EXPECT_THAT(test::error_of([&] { encode_bias(sheet.surface, sheet.rest, random_bias(sheet, 1), 16); }),
-              HasSubstr("16 texels a side are too few"));
+              HasSubstr("a texture of 16×16 has too few"));
   Sheet outside = sheet;
-  outside.surface.render_vertices[0].uv.x = 1.5F;
+  outside.surface.render_vertices[0].uv.x = 100.5F;
   EXPECT_THAT(test::error_of([&] { encode_bias(outside.surface, outside.rest, bias, 64); }),
-              HasSubstr("outside 0…1"));
+              HasSubstr("at most 64 tiles a side"));
+}
+
+// A pattern that repeats, islands on top of each other, all of the uv at one point, and triangles without
+// area in uv: each vertex is read back as it was painted.
+TEST(BiasFile, TextureComesBackWhereUvRepeatOverlapAndCollapse) {
+  const test::TemporaryFolder folder;
+  const Sheet plain = bumpy_sheet();
+  std::vector<Sheet> sheets(4, plain);
+  for (auto& vertex : sheets[0].surface.render_vertices) vertex.uv = 7.0F * vertex.uv - glm::vec2(3, 1);
+  for (auto& vertex : sheets[1].surface.render_vertices)
+    if (vertex.uv.x > 0.5F) vertex.uv.x = 1 - vertex.uv.x;
+  for (auto& vertex : sheets[2].surface.render_vertices) vertex.uv = {0.3F, 0.7F};
+  for (auto& vertex : sheets[3].surface.render_vertices) vertex.uv.y = 0.25F;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const Sheet& sheet = sheets[i];
+    const auto bias = random_bias(sheet, 7);
+    std::size_t moved = 0;
+    io::write_png(folder / "bias.png", encode_bias(sheet.surface, sheet.rest, bias, 512, &moved));
+    expect_same(read_bias(folder / "bias.png", sheet.surface, sheet.rest), bias);
+    EXPECT_TRUE(i == 1 || (moved > 0) == (i > 1)) << i;  // those of 1 overlap between their vertices, too
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "config/scene_file.h"
+#include "io/png.h"
+#include "paint/bias_file.h"
 #include "pipeline/history.h"
 #include "support/files.h"
 #include "support/opengl.h"
@@ -67,6 +69,45 @@ TEST_F(PaintedAssets, TheShirtsFoldsAreAsManyAndAsSteepAsItsFileSays) {
   }
   EXPECT_GT(painted, bias.size() / 10);
   EXPECT_EQ(drawn, painted);
+}
+
+// Random folds over all of a model, written as its uv texture and read again: within a step of eight bits in
+// length and a degree in direction, whatever its uv do (sleeves and shirts repeat a pattern; the Knight's
+// islands lie on each other).
+void expect_texture_of(const std::filesystem::path& model) {
+  const LoadedScene scene(config::bare_scene(model));
+  std::vector<glm::dvec3> bias;
+  for (std::size_t v = 0; v < scene.surface().vertex_count(); ++v) {
+    const auto id = static_cast<double>(v);
+    const double angle = 1.7 * id, length = 0.05 + 0.9 * std::abs(std::sin(0.37 * id));
+    const glm::dvec3 &t = scene.rest.tangent[v], &n = scene.rest.normal[v];
+    bias.push_back(length * (std::cos(angle) * t + std::sin(angle) * glm::cross(n, t)));
+  }
+  const test::TemporaryFolder folder;
+  io::write_png(folder / "bias.png", paint::encode_bias(scene.surface(), scene.rest, bias, 1024));
+  const auto back = paint::read_bias(folder / "bias.png", scene.surface(), scene.rest);
+  std::vector<bool> has_uv(bias.size(), false);
+  for (const Part& part : scene.surface().parts)
+    for (std::size_t c = 3 * part.first_triangle; c < 3 * (part.first_triangle + part.triangle_count); ++c)
+      if (part.has_uv) has_uv[scene.surface().render_vertices[scene.surface().triangles[c]].welded] = true;
+  for (std::size_t v = 0; v < bias.size(); ++v) {
+    if (!has_uv[v]) continue;
+    EXPECT_NEAR(glm::length(back[v]), glm::length(bias[v]), 1.0 / 255) << model << " " << v;
+    EXPECT_GT(std::abs(glm::dot(glm::normalize(back[v]), glm::normalize(bias[v]))),
+              std::cos(glm::radians(1.0)))
+        << model << " " << v;
+  }
+}
+
+TEST(PaintedTextures, OfTheAssetsComeBack) {
+  expect_texture_of(test::asset("sleeve.glb"));
+  expect_texture_of(test::asset("shirt.glb"));
+}
+
+TEST(PaintedTextures, OfOtherPeoplesModelsComeBack) {
+  const std::filesystem::path models = test::shared_data("models");
+  if (!std::filesystem::exists(models)) GTEST_SKIP() << "the shared models are not here";
+  for (const char* name : {"KayKit_Knight.glb", "huesitos.fbx", "Fox.glb"}) expect_texture_of(models / name);
 }
 
 }  // namespace
