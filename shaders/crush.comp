@@ -68,7 +68,7 @@ void main() {
     // k is set to the new direction the first time, and at a vertex that was idle; later it follows by the certainty of the
     // new direction (docs/contract.md, "State over time", rule 2).
     float status = phase(v).y;
-    vec2 k = state(v).xy, toward = dot(k, v2) < 0.0 ? -v2 : v2;
+    vec2 before = state(v).xy, k = before, toward = dot(k, v2) < 0.0 ? -v2 : v2;
     bool has_direction = dot(k, k) > 0.0 && (always_set || status != idle);
     if (has_direction) {
         k = normalize(k + min(g / isotropy, 1.0) * (toward - k));
@@ -92,13 +92,15 @@ void main() {
     } else {
         bool can_wave = mask > 0.0 && has_direction;
         if (status != idle && !(can_wave && s >= 0.5 * dead_zone)) status = idle;
-        else if (status == idle && can_wave && s > dead_zone) {
-            status = fresh;
-            // Within 45 degrees of the field's direction a wave begins as the field's; −k counts its phase the other way.
-            float along = dot(k, q);
-            if (bias.w > 0.0 && along * along >= 0.5 * dot(q, q)) {
+        else if (status != idle || (can_wave && s > dead_zone)) {
+            // A wave that begins within 45 degrees of the field's direction, or turns back there, is the field's; −k counts
+            // its phase the other way.
+            float along = dot(k, q), was = dot(before, q), limit = 0.5 * dot(q, q);
+            if (bias.w > 0.0 && along * along >= limit && (status == idle || was * was < limit)) {
                 status = set;
                 phases_out[v].x = along < 0.0 ? -bias.z : bias.z;
+            } else if (status == idle) {
+                status = fresh;
             }
         }
         if (status == fresh) atomicAdd(fresh_count, 1u);

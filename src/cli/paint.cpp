@@ -36,11 +36,13 @@ struct Arguments {
 ordered_json to_json(const pipeline::PaintReport& report) {
   ordered_json outputs = ordered_json::array();
   for (const auto& output : report.outputs) outputs.push_back({{"path", output.path}, {"kind", output.kind}});
-  return {{"vertices", report.vertices},
-          {"painted_vertices", report.painted_vertices},
-          {"largest", report.largest},
-          {"outputs", outputs},
-          {"wall_s", report.wall_s}};
+  ordered_json json = {{"vertices", report.vertices},
+                       {"painted_vertices", report.painted_vertices},
+                       {"largest", report.largest},
+                       {"outputs", outputs}};
+  for (const auto& step : report.steps) json["field_error"][step.step] = step.error;
+  json["wall_s"] = report.wall_s;
+  return json;
 }
 
 int run_paint(Arguments& arguments) {
@@ -60,6 +62,13 @@ int run_paint(Arguments& arguments) {
   log::notice(fmt::format("{} of {} vertices painted, the strongest {:.2f}, in {:.2f} s → {}",
                           report.painted_vertices, report.vertices, report.largest, report.wall_s,
                           request.folder));
+  for (const auto& step : report.steps)
+    log::notice(
+        fmt::format("heights at rest against the field drawn directly, {}: {:.2f} % (root mean square)",
+                    step.step == "clip"      ? "after the clip's frames"
+                    : step.step == "texture" ? "from bias.png"
+                                             : "from bias.ply",
+                    100 * step.error));
   write_report(to_json(report), arguments.common.json());
   return 0;
 }

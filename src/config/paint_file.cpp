@@ -19,16 +19,20 @@ using Mode = PaintStroke::Mode;
 using D = PaintDirection::Kind;
 
 const Words<StrokeKind>& kinds() {
-  static const Words<StrokeKind> words = {{"screen", StrokeKind::screen},   {"surface", StrokeKind::surface},
-                                          {"uv", StrokeKind::uv},           {"image", StrokeKind::image},
-                                          {"colours", StrokeKind::colours}, {"painted", StrokeKind::painted},
-                                          {"random", StrokeKind::random},   {"fill", StrokeKind::fill}};
+  static const Words<StrokeKind> words = {
+      {"screen", StrokeKind::screen}, {"surface", StrokeKind::surface}, {"uv", StrokeKind::uv},
+      {"image", StrokeKind::image},   {"colours", StrokeKind::colours}, {"painted", StrokeKind::painted},
+      {"field", StrokeKind::field},   {"random", StrokeKind::random},   {"fill", StrokeKind::fill}};
   return words;
+}
+
+bool has_own_vectors(const PaintStroke& stroke) {
+  return stroke.kind == StrokeKind::painted || stroke.kind == StrokeKind::field;
 }
 
 // |p| stays below 1; erasing, smoothing and what was painted before may be taken whole.
 double most_strength(const PaintStroke& stroke) {
-  return stroke.mode == Mode::paint && stroke.kind != StrokeKind::painted ? 0.99 : 1;
+  return stroke.mode == Mode::paint && !has_own_vectors(stroke) ? 0.99 : 1;
 }
 
 void set_points(PaintStroke& stroke, const Given& given) {
@@ -74,9 +78,10 @@ const Keys<PaintStroke>& stroke_keys() {
         enumeration<Mode>({{"paint", Mode::paint}, {"erase", Mode::erase}, {"smooth", Mode::smooth}}),
         "Lay wrinkles (paint), take them away (erase), or even them out with their neighbours (smooth).",
         {.first = true});
-    row("strength", "0 … 0.99 (erase, smooth, painted: 0 … 1)",
+    row("strength", "0 … 0.99 (erase, smooth, painted, field: 0 … 1)",
         "Length of the vector p in the middle of the stroke (default 0.45): cloth is shortened by its "
-        "square. With erase and smooth, how much of it is done (default 1).",
+        "square. With erase and smooth, how much of it is done; with painted and field, a factor (default "
+        "1).",
         {}, [](S& s, const Given& given) {
           s.strength = within(number_of(given), {0, most_strength(s)});
         });
@@ -110,8 +115,10 @@ const Keys<PaintStroke>& stroke_keys() {
         [](S& s, const std::pair<int, int>& size) { std::tie(s.width, s.height) = size; });
     row("file", &S::file, existing_file("an existing file"),
         "A picture in uv whose brightness times alpha is the amount (image); a PLY with red, green, blue, "
-        "whose brightness is the amount (colours); a PLY or PNG that plisse painted (painted).",
-        {.of = {"image", "colours", "painted"}, .needed = always});
+        "whose brightness is the amount (colours); a PLY or PNG that plisse painted (painted); a solved "
+        "wrinkle "
+        "field over the rest pose, as [bias] field takes it (field).",
+        {.of = {"image", "colours", "painted", "field"}, .needed = always});
     row("up", &S::up, enumeration<std::string>({{"x", "x"}, {"y", "y"}, {"z", "z"}}),
         "The axis that points up in the file (default y; Blender writes z).", {.of = {"colours"}});
     row("seed", &S::seed, whole(0, 4294967295), "Another seed, other wrinkles.", {.of = {"random"}});
@@ -142,7 +149,7 @@ void check_direction(FileReader& reader, const PaintStroke& stroke, const Places
   const D direction = stroke.direction.kind;
   const bool line = stroke.kind == StrokeKind::screen || stroke.kind == StrokeKind::surface ||
                     stroke.kind == StrokeKind::uv;
-  if (stroke.mode != Mode::paint || stroke.kind == StrokeKind::painted) {
+  if (stroke.mode != Mode::paint || has_own_vectors(stroke)) {
     if (given.contains("direction"))
       reader.complain(at, "key 'direction': has no effect on this stroke; take it out");
     return;

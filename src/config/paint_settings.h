@@ -25,7 +25,7 @@ struct PaintDirection {
 };
 
 struct PaintStroke {
-  enum class Kind { screen, surface, uv, image, colours, painted, random, fill };
+  enum class Kind { screen, surface, uv, image, colours, painted, field, random, fill };
   enum class Mode { paint, erase, smooth };
   enum class Falloff { smooth, linear, flat };
 
@@ -45,7 +45,7 @@ struct PaintStroke {
   int frame = 1;               // screen: of which the points are seen
   std::string camera;          // screen: as --camera; empty: the scene's
   int width = 0, height = 0;   // screen: of the picture; 0: the scene's
-  std::filesystem::path file;  // image, colours, painted
+  std::filesystem::path file;  // image, colours, painted, field
   std::string up = "y";        // colours: the file's axis that points up
   std::uint32_t seed = 1;      // random
   double density = 0;          // random: wrinkles per square metre

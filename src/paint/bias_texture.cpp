@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -271,10 +272,82 @@ std::vector<glm::dvec3> decode_bias(const Surface& surface, const RestFrames& re
   return bias;
 }
 
-std::vector<glm::dvec3> read_bias(const std::filesystem::path& path, const Surface& surface,
-                                  const RestFrames& rest) {
+namespace {
+
+constexpr double octaves = 12;  // of wavelengths
+
+double diagonal_of(const Surface& surface) {
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec3& x : surface.rest) low = glm::min(low, x), high = glm::max(high, x);
+  return glm::distance(low, high);
+}
+
+// p at a texel of the texture of bias, in the rest pose.
+glm::dvec3 read_at(const Places& places, std::size_t i, const Texel& texel) {
+  const glm::dvec2 q = decoded(texel);
+  return q.x * places.frames[i].along_u + q.y * places.frames[i].along_v;
+}
+
+}  // namespace
+
+io::Image encode_waves(const Surface& surface, const RestFrames& rest, const Painting& painting, int size) {
+  Texture texture(size);
+  const Places places = places_in(surface, rest, texture);
+  const double diagonal = diagonal_of(surface);
+  for (std::size_t i = 0; i < places.texel.size(); ++i) {
+    if (places.texel[i] == Places::none) continue;
+    const std::uint32_t v = surface.render_vertices[i].welded;
+    const glm::dvec3 &p = painting.bias[v], &g = painting.gradient[v];
+    Texel texel = ground;
+    if (p != glm::dvec3(0) && g != glm::dvec3(0)) {
+      const glm::dvec3 read = read_at(
+          places, i, encoded({glm::dot(p, places.frames[i].along_u), glm::dot(p, places.frames[i].along_v)}));
+      const double phase = glm::dot(read, p) < 0 ? -painting.phase[v] : painting.phase[v],
+                   part = 2 * std::numbers::pi / glm::length(g) / diagonal;
+      texel = {byte(0.5 + 0.5 * std::cos(phase)), byte(0.5 + 0.5 * std::sin(phase)),
+               std::max<std::uint8_t>(1, byte((std::log2(part) + octaves) / octaves))};
+    }
+    texture.set(places.texel[i], texel);
+  }
+  texture.widen();
+  return texture.image();
+}
+
+void decode_waves(const Surface& surface, const RestFrames& rest, const io::Image& bias,
+                  const io::Image& waves, const std::string& name, Painting& painting) {
+  if (waves.width != bias.width || waves.height != bias.height)
+    throw Error(ExitCode::bad_input, fmt::format("{}: is {}×{} pixels, the texture that it belongs to {}×{}",
+                                                 name, waves.width, waves.height, bias.width, bias.height));
+  const Places places = places_in(surface, rest, Texture(waves.width));
+  const double diagonal = diagonal_of(surface);
+  std::vector<bool> done(surface.vertex_count(), false);
+  for (std::size_t i = 0; i < places.texel.size(); ++i) {
+    if (places.texel[i] == Places::none) continue;
+    const std::uint32_t v = surface.render_vertices[i].welded;
+    const std::uint8_t *wave = &waves.rgba[4 * places.texel[i]], *p = &bias.rgba[4 * places.texel[i]];
+    if (done[v] || wave[2] == 0 || painting.bias[v] == glm::dvec3(0)) continue;
+    done[v] = true;
+    const glm::dvec3 read = read_at(places, i, {p[0], p[1], p[2]});
+    if (read == glm::dvec3(0)) continue;
+    painting.bias[v] = on_the_side_of(read, painting.bias[v]);
+    const double length = diagonal * std::exp2(octaves * (wave[2] / 255.0 - 1));
+    painting.gradient[v] = 2 * std::numbers::pi / length * glm::normalize(painting.bias[v]);
+    painting.phase[v] = std::atan2(wave[1] / 127.5 - 1, wave[0] / 127.5 - 1);
+  }
+}
+
+std::filesystem::path waves_beside(const std::filesystem::path& bias) {
+  return bias.parent_path() / (bias.stem().string() + "_waves.png");
+}
+
+Painting read_bias(const std::filesystem::path& path, const Surface& surface, const RestFrames& rest) {
   if (path.extension() == ".ply" || path.extension() == ".PLY") return read_bias_ply(path, surface);
-  return decode_bias(surface, rest, io::load_image(path), path.string());
+  const io::Image image = io::load_image(path);
+  Painting painting(surface.vertex_count());
+  painting.bias = decode_bias(surface, rest, image, path.string());
+  if (const auto beside = waves_beside(path); std::filesystem::exists(beside))
+    decode_waves(surface, rest, image, io::load_image(beside), beside.string(), painting);
+  return painting;
 }
 
 }  // namespace plisse::paint

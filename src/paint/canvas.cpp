@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 #include <string_view>
 
@@ -53,7 +54,8 @@ glm::dvec3 mean_around(const Canvas& canvas, const std::vector<glm::dvec3>& bias
 }
 
 void apply(const Canvas& canvas, const config::PaintStroke& stroke, const std::vector<Touch>& touches,
-           std::vector<glm::dvec3>& bias) {
+           Painting& painting) {
+  std::vector<glm::dvec3>& bias = painting.bias;
   std::vector<glm::dvec3> before;  // the vectors before smoothing; only needed for mode `smooth`
   if (stroke.mode == config::PaintStroke::Mode::smooth) before = bias;
   for (const Touch& touch : touches) {
@@ -62,6 +64,10 @@ void apply(const Canvas& canvas, const config::PaintStroke& stroke, const std::v
       case config::PaintStroke::Mode::paint: {
         const glm::dvec3 aim = stroke.strength * touch.vector;
         p = glm::mix(p, on_the_side_of(p, aim), touch.amount);
+        if (touch.amount >= 0.5) {
+          painting.gradient[touch.vertex] = touch.gradient;
+          painting.phase[touch.vertex] = touch.phase;
+        }
         break;
       }
       case config::PaintStroke::Mode::erase:
@@ -90,6 +96,8 @@ std::vector<std::vector<Touch>> touched_as_its_kind(const Canvas& canvas, const 
       return {touched_by_colours(canvas, stroke)};
     case config::PaintStroke::Kind::painted:
       return {touched_by_painted(canvas, stroke)};
+    case config::PaintStroke::Kind::field:
+      return {touched_by_field(canvas, stroke)};
     case config::PaintStroke::Kind::random:
       return touched_at_random(canvas, stroke);
     case config::PaintStroke::Kind::fill:
@@ -110,8 +118,25 @@ std::vector<std::vector<Touch>> touched(const Canvas& canvas, const config::Pain
 
 }  // namespace
 
-std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes) {
-  std::vector<glm::dvec3> bias(canvas.surface.vertex_count(), glm::dvec3(0));
+bool Painting::has_waves() const {
+  return std::ranges::any_of(gradient, [](const glm::dvec3& g) { return g != glm::dvec3(0); });
+}
+
+void take_painting(const Painting& painting, VertexWaves& waves) {
+  waves.bias = painting.bias;
+  if (!painting.has_waves()) return;
+  waves.start_direction.assign(painting.bias.size(), glm::dvec3(0));
+  waves.start_phase = painting.phase;
+  for (std::size_t v = 0; v < painting.bias.size(); ++v) {
+    const glm::dvec3 &p = painting.bias[v], &g = painting.gradient[v];
+    if (p == glm::dvec3(0) || g == glm::dvec3(0)) continue;
+    waves.start_direction[v] = glm::normalize(p);
+    waves.wavelength[v] = 2 * std::numbers::pi / ((1 - glm::dot(p, p)) * glm::length(g));
+  }
+}
+
+Painting paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes) {
+  Painting painting(canvas.surface.vertex_count());
   for (const config::PaintStroke& stroke : strokes) {
     check_names(canvas, stroke);
     const std::vector<bool> allowed = allowed_vertices(canvas, stroke);
@@ -121,12 +146,15 @@ std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<config::Pa
                     [&](const Touch& touch) { return !allowed[touch.vertex] || !(touch.amount > 0); });
       any = any || !touches.empty();
       const int rounds = stroke.mode == config::PaintStroke::Mode::smooth ? stroke.rounds : 1;
-      for (int i = 0; i < rounds; ++i) apply(canvas, stroke, touches, bias);
+      for (int i = 0; i < rounds; ++i) apply(canvas, stroke, touches, painting);
     }
     if (!any)
       fail(stroke, "this stroke touches no vertex; it lies off the mesh, or off the parts it is limited to");
   }
-  return bias;
+  // p and −p are the same wrinkles, but a phase counts in one direction.
+  for (std::size_t v = 0; v < painting.bias.size(); ++v)
+    painting.bias[v] = on_the_side_of(painting.gradient[v], painting.bias[v]);
+  return painting;
 }
 
 }  // namespace plisse::paint

@@ -8,6 +8,8 @@
 
 #include "config/paint_settings.h"
 #include "mesh/surface.h"
+#include "mesh/vertex_waves.h"
+#include "paint/field.h"
 
 namespace plisse::paint {
 
@@ -22,12 +24,31 @@ struct Screen {
 struct Canvas {
   const Surface& surface;
   const RestFrames& rest;
-  std::function<Screen(const config::PaintStroke&)> look;  // the picture for a stroke of kind screen
+  std::function<Screen(const config::PaintStroke&)> look = {};  // the picture for a stroke of kind screen
+  std::function<SurfaceField(const config::PaintStroke&)> field = {};  // what a stroke of kind field has
+  double dead_zone = 0.005;  // of crush, which a field's p make up for
 };
 
-// p of every welded vertex after all strokes in order, tangent to the rest pose, 0 where nothing was painted,
-// |p| ≤ .99. Throws Error(bad_input) with the stroke's place in the file for a stroke that misses the
-// surface, names an unknown mesh or material, needs uv where there is none, or whose file does not fit.
-std::vector<glm::dvec3> paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes);
+// What strokes leave, one of each welded vertex.
+struct Painting {
+  std::vector<glm::dvec3> bias;  // p, tangent to the rest pose, |p| ≤ .99, 0 where nothing was painted
+  // Waves of solved fields: ∇φ, radians per metre of the rest pose, on the side of p; 0 for those that the
+  // passes find themselves; and φ, radians.
+  std::vector<glm::dvec3> gradient;
+  std::vector<double> phase;
+
+  explicit Painting(std::size_t vertices = 0)
+      : bias(vertices, glm::dvec3(0)), gradient(vertices, glm::dvec3(0)), phase(vertices, 0) {}
+  bool has_waves() const;
+};
+
+// What crush and relax begin with: bias; where there are solved waves their direction, phase and wavelength,
+// W = 2π/((1 − |p|²)|∇φ|), so that at rest they are as long as they were solved (docs/passes.md, "Fields").
+void take_painting(const Painting& painting, VertexWaves& waves);
+
+// The painting after all strokes in order. A field's waves stay where later strokes are weaker than one half.
+// Throws Error(bad_input) with the stroke's place in the file for a stroke that misses the surface, names an
+// unknown mesh or material, needs uv where there is none, or whose file does not fit.
+Painting paint(const Canvas& canvas, const std::vector<config::PaintStroke>& strokes);
 
 }  // namespace plisse::paint

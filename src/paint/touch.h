@@ -16,6 +16,9 @@ struct Touch {
   double amount = 1;     // how far p moves toward the stroke's own vector, 0…1
   glm::dvec3 vector{0};  // that vector divided by the strength: in the rest pose, tangent, length 0…1; p and
                          // −p are the same
+  // Of a solved field's wave: ∇φ, on the side of `vector`, and φ (Painting); else 0.
+  glm::dvec3 gradient{0};
+  double phase = 0;
 };
 
 // One function for each kind; `only` and `exclude` are not yet applied.
@@ -25,6 +28,7 @@ std::vector<Touch> touched_in_uv(const Canvas& canvas, const config::PaintStroke
 std::vector<Touch> touched_by_image(const Canvas& canvas, const config::PaintStroke& stroke);
 std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintStroke& stroke);
 std::vector<Touch> touched_by_painted(const Canvas& canvas, const config::PaintStroke& stroke);
+std::vector<Touch> touched_by_field(const Canvas& canvas, const config::PaintStroke& stroke);
 std::vector<Touch> touched_by_fill(const Canvas& canvas, const config::PaintStroke& stroke);
 // Random folds, one list each: they are blended one after the other.
 std::vector<std::vector<Touch>> touched_at_random(const Canvas& canvas, const config::PaintStroke& stroke);

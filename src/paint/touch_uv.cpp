@@ -117,9 +117,25 @@ std::vector<Touch> touched_by_colours(const Canvas& canvas, const config::PaintS
 }
 
 std::vector<Touch> touched_by_painted(const Canvas& canvas, const config::PaintStroke& stroke) {
-  const auto bias = read_bias(stroke.file, canvas.surface, canvas.rest);
+  const Painting found = read_bias(stroke.file, canvas.surface, canvas.rest);
   std::vector<Touch> touches;
-  for (std::uint32_t v = 0; v < bias.size(); ++v) touches.push_back({v, 1, bias[v]});
+  for (std::uint32_t v = 0; v < found.bias.size(); ++v)
+    touches.push_back({v, 1, found.bias[v], found.gradient[v], found.phase[v]});
+  return touches;
+}
+
+std::vector<Touch> touched_by_field(const Canvas& canvas, const config::PaintStroke& stroke) {
+  VertexWaves waves;
+  waves.wavelength.assign(canvas.surface.vertex_count(), 1);
+  field_as_bias(canvas.surface, canvas.rest, canvas.field(stroke), canvas.dead_zone, waves);
+  std::vector<Touch> touches;
+  for (std::uint32_t v = 0; v < waves.bias.size(); ++v) {
+    const glm::dvec3& p = waves.bias[v];
+    const double r = 1 - glm::dot(p, p);
+    if (p != glm::dvec3(0))
+      touches.push_back({v, 1, p, 2 * std::numbers::pi / (r * waves.wavelength[v]) * waves.start_direction[v],
+                         waves.start_phase[v]});
+  }
   return touches;
 }
 

@@ -117,9 +117,10 @@ LoadedScene::LoadedScene(const config::SceneSettings& given, const scene::InMemo
 
 void LoadedScene::take_bias(const scene::InMemory& memory) {
   const config::BiasSettings& given = settings.bias;
-  if (!given.paint.empty()) waves.bias = painted(config::load_paint(given.paint));
+  if (!given.paint.empty()) paint::take_painting(painted(config::load_paint(given.paint)), waves);
   if (!given.file.empty())
-    for_key(settings, "bias.file", [&] { waves.bias = paint::read_bias(given.file, surface(), rest); });
+    for_key(settings, "bias.file",
+            [&] { paint::take_painting(paint::read_bias(given.file, surface(), rest), waves); });
   const int frames = animation.timeline().frame_count;
   if (memory.fields && memory.fields->size() == 1) {
     take_field(memory.fields->front(), glm::dmat4(1), "wrinkle field");
@@ -248,6 +249,9 @@ void LoadedScene::smooth(const SolvedClip& sheets, const std::vector<bool>& chos
   waves.mask = smooth_->spread(waves.mask);
   waves.wander = smooth_->spread(waves.wander);
   if (!waves.bias.empty()) waves.bias = smooth_->spread(waves.bias);
+  // Painted waves under a field that is drawn directly begin as the passes' own do.
+  waves.start_direction.clear();
+  waves.start_phase.clear();
   rest = rest_frames(surface());
 }
 
@@ -313,12 +317,18 @@ void LoadedScene::visit_fields(const std::function<void(const std::vector<FieldT
   }
 }
 
-std::vector<glm::dvec3> LoadedScene::painted(const config::PaintSettings& paint) const {
+paint::Painting LoadedScene::painted(const config::PaintSettings& paint) const {
   const Surface& own = animation.surface();
   const RestFrames frames = smooth_ ? rest_frames(own) : rest;
-  const paint::Canvas canvas{own, frames,
-                             [this](const config::PaintStroke& stroke) { return screen(stroke); }};
+  const paint::Canvas canvas{
+      own, frames, [this](const config::PaintStroke& stroke) { return screen(stroke); },
+      [this](const config::PaintStroke& stroke) { return field_of(stroke); }, settings.wrinkles.dead_zone};
   return paint::paint(canvas, paint.strokes);
+}
+
+paint::SurfaceField LoadedScene::field_of(const config::PaintStroke& stroke) const {
+  return paint::field_on(animation.surface(), io::read_wrinkle_field(stroke.file, settings.model.path),
+                         io::file_to_world(model.up, model.metres_per_unit), stroke.file.string());
 }
 
 paint::Screen LoadedScene::screen(const config::PaintStroke& stroke) const {

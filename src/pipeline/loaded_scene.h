@@ -50,13 +50,17 @@ class LoadedScene {
   // Camera and lights of a frame, in model units.
   passes::View view(int frame) const;
   // p of every welded vertex after these strokes (paint/canvas.h).
-  std::vector<glm::dvec3> painted(const config::PaintSettings& paint) const;
+  paint::Painting painted(const config::PaintSettings& paint) const;
 
   // Whether every frame has its own field, or one that is carried is as each pose leaves it; waves.field is
   // then that of the last step, at first that of frame 1. The pose of the step must be available. Throws
   // Error(bad_input) where the field belongs to another surface than that frame's.
   bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_ || carried_; }
   void take_field(int step);
+  // The carried field in the rest pose, or what waves.field is.
+  std::vector<FieldTriangle> field_at_rest() const {
+    return carried_ ? carried_->in(surface().rest) : waves.field;
+  }
   // Whether every frame has its own bias, of the base surface that is its pose; waves has that of the last
   // step that was taken, at first frame 1's. The pose of the step must be available. Gives the frames that
   // the bias is tangent to.
@@ -112,6 +116,7 @@ class LoadedScene {
   bool has_solved_waves_ = false;
   int field_frame_ = 0;
   paint::Screen screen(const config::PaintStroke& stroke) const;
+  paint::SurfaceField field_of(const config::PaintStroke& stroke) const;
   void extend(int step);
   int preroll_ = 0;
   scene::Animation::Bounds bounds_;

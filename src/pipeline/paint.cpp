@@ -48,7 +48,7 @@ std::size_t painted_without_uv(const Surface& surface, const std::vector<glm::dv
 
 PaintedSurface paint_in_memory(const config::PaintSettings& paint) {
   const LoadedScene scene(scene_to_paint(paint));
-  return {scene.surface().rest, scene.painted(paint)};
+  return {scene.surface().rest, scene.painted(paint).bias};
 }
 
 PaintReport paint_wrinkles(const PaintRequest& request) {
@@ -56,7 +56,8 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
   const config::PaintSettings& paint = request.paint;
   const config::SceneSettings settings = scene_to_paint(paint);
   const LoadedScene scene(settings);
-  const auto bias = scene.painted(paint);
+  const paint::Painting painting = scene.painted(paint);
+  const std::vector<glm::dvec3>& bias = painting.bias;
 
   PaintReport report;
   report.vertices = bias.size();
@@ -69,7 +70,7 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
     report.outputs.push_back({path.string(), kind});
   };
   const auto ply = folder / "bias.ply";
-  paint::write_bias_ply(ply, scene.surface(), bias);
+  paint::write_bias_ply(ply, scene.surface(), painting);
   written(ply, "bias");
   try {
     std::size_t moved = 0;
@@ -77,6 +78,13 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
         paint::encode_bias(scene.surface(), scene.rest, bias, paint.texture_size, &moved);
     io::write_png(folder / "bias.png", texture);
     written(folder / "bias.png", "texture");
+    const auto waves = paint::waves_beside(folder / "bias.png");
+    if (painting.has_waves()) {
+      io::write_png(waves, paint::encode_waves(scene.surface(), scene.rest, painting, paint.texture_size));
+      written(waves, "waves");
+    } else {
+      std::filesystem::remove(waves);  // of an earlier run: it would be read with this one's bias
+    }
     if (moved > 0)
       log::warn(fmt::format(
           "bias.png: {} vertices have the texel beside their own, because islands of uv overlap or {} "
@@ -88,6 +96,14 @@ PaintReport paint_wrinkles(const PaintRequest& request) {
   } catch (const Error& error) {
     if (error.code != ExitCode::bad_input) throw;
     log::warn(fmt::format("no uv texture: {}; {} has it all", error.what(), ply.string()));
+  }
+  const auto laid = std::ranges::find_if(paint.strokes, [](const config::PaintStroke& stroke) {
+    return stroke.kind == config::PaintStroke::Kind::field && stroke.mode == config::PaintStroke::Mode::paint;
+  });
+  if (laid != paint.strokes.end()) {
+    const bool textured =
+        std::ranges::any_of(report.outputs, [](const auto& o) { return o.kind == "texture"; });
+    report.steps = field_steps(settings, laid->file, ply, textured ? folder / "bias.png" : "");
   }
   if (paint.preview_frame > 0) {
     RenderRequest preview;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/paint_settings.h"
+#include "pipeline/field_steps.h"
 
 namespace plisse::pipeline {
 
@@ -23,6 +24,7 @@ struct PaintReport {
   std::vector<Output> outputs;
   std::size_t vertices = 0, painted_vertices = 0;  // welded; painted: |p| > 0
   double largest = 0;                              // |p|
+  std::vector<FieldStep> steps;                    // of the first stroke that lays a solved field
   double wall_s = 0;
 };
 

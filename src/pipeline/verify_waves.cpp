@@ -59,13 +59,17 @@ double normal_certainty(const reference::Topology& topology, const Eigen::Matrix
   return size > 0 ? area.norm() / size : 0;
 }
 
-// Whether with other rounding errors the status may be another. `q`: the solved wave's direction, of any
-// length, in the rest frame; 0 without one.
-bool status_hangs_on_rounding(const reference::CrushResult& vertex, double dead_zone,
-                              const Eigen::Vector2d& q) {
+// Whether with other rounding errors the status may be another, or the phase that of a solved wave. `q`: the
+// direction of that, of any length, in the rest frame; 0 without one.
+bool status_hangs_on_rounding(const reference::CrushResult& vertex, const reference::CrushState& previous,
+                              double dead_zone, const Eigen::Vector2d& q) {
   const double s = 1 - vertex.r;
-  const double turned = std::abs(std::abs(vertex.direction.dot(q)) - std::sqrt(0.5) * q.norm());
-  if (turned * vertex.gap < sign_rounding * q.norm()) return true;
+  const auto turned = [&](const Eigen::Vector2d& k) {
+    return std::abs(std::abs(k.dot(q)) - std::sqrt(0.5) * q.norm());
+  };
+  if (turned(vertex.direction) * vertex.gap < sign_rounding * q.norm() ||
+      turned(previous.direction) < sign_rounding * q.norm())
+    return true;
   return std::abs(s - dead_zone) < r_tolerance || std::abs(s - dead_zone / 2) < r_tolerance ||
          std::abs(vertex.gap - certain_gap) < r_tolerance;
 }
@@ -168,7 +172,7 @@ void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
     const Eigen::Vector2d q =
         solved ? Eigen::Vector2d(reference_.rest_frames.basis(i).transpose() * reference_.bias.p.col(i))
                : Eigen::Vector2d(0, 0);
-    if (!status_hangs_on_rounding(e, reference_.crush.dead_zone, q)) {
+    if (!status_hangs_on_rounding(e, before_.states[v], reference_.crush.dead_zone, q)) {
       status_.add(gpu.states[v].status == e.status ? 0 : 1);
       if (e.phase) {
         const double sign = e.direction.dot(gpu.states[v].direction) < 0 ? -1 : 1;

@@ -92,8 +92,10 @@ Matrix2d without_stretch_along(const Matrix2d& M, const Vector2d& direction) {
   return M * change;
 }
 
-void begin_as_solved(const Vector2d& q, double phase, CrushResult& vertex) {
-  if (vertex.status != Status::fresh || std::abs(vertex.direction.dot(q)) < std::sqrt(0.5) * q.norm()) return;
+void begin_as_solved(const Vector2d& q, double phase, const CrushState& previous, CrushResult& vertex) {
+  const auto is_along = [&](const Vector2d& k) { return std::abs(k.dot(q)) >= std::sqrt(0.5) * q.norm(); };
+  if (vertex.status == Status::idle || !is_along(vertex.direction)) return;
+  if (previous.status != Status::idle && is_along(previous.direction)) return;
   vertex.status = Status::set;
   vertex.phase = std::copysign(1.0, vertex.direction.dot(q)) * phase;
 }
@@ -127,9 +129,9 @@ std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_fram
           M, (rest_frames.basis(vertex).transpose() * bias.carried.col(vertex)).normalized());
     if (bias.p.cols() > 0) M = biased(M, rest_frames.basis(vertex), bias.p.col(vertex));
     results.push_back(crush_vertex(M, wavelength[vertex], mask[vertex], settings, previous[index]));
-    if (!bias.phase.empty() && bias.phase[index] && previous[index].status == Status::idle)
+    if (settings.smooth && !bias.phase.empty() && bias.phase[index])
       begin_as_solved(rest_frames.basis(vertex).transpose() * bias.p.col(vertex), *bias.phase[index],
-                      results.back());
+                      previous[index], results.back());
   }
   return results;
 }

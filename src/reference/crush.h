@@ -69,9 +69,9 @@ Eigen::Matrix2d biased(const Eigen::Matrix2d& M, const Eigen::Matrix<double, 3, 
 // M(E + (1/|Mĝ| − 1) ĝ⊗ĝ), ĝ in (t, b), unit: as long along ĝ as at rest; |Mĝ| counts as .05 at least.
 Eigen::Matrix2d without_stretch_along(const Eigen::Matrix2d& M, const Eigen::Vector2d& direction);
 
-// A wave that was idle and comes back within 45 degrees of the solved wave along q (in (t, b)) has that one's
-// phase, with the sign that its k has to q; it is set at once.
-void begin_as_solved(const Eigen::Vector2d& q, double phase, CrushResult& vertex);
+// A wave that was idle, or more than 45 degrees from the solved wave along q (in (t, b)), and is now within
+// them has that one's phase, with the sign that its k has to q; it is set at once.
+void begin_as_solved(const Eigen::Vector2d& q, double phase, const CrushState& previous, CrushResult& vertex);
 
 // The whole pass. `wavelength` and `mask` have one entry a vertex; `previous` is the state of the last frame.
 std::vector<CrushResult> crush(const Topology& topology, const Frames& rest_frames,

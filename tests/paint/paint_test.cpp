@@ -58,7 +58,7 @@ Screen from_above(const std::vector<glm::dvec3>& positions) {
 std::vector<glm::dvec3> painted(const Sheet& sheet, const std::vector<config::PaintStroke>& strokes) {
   const Canvas canvas{sheet.surface, sheet.rest,
                       [&](const config::PaintStroke&) { return from_above(sheet.surface.rest); }};
-  return paint(canvas, strokes);
+  return paint(canvas, strokes).bias;
 }
 
 std::string complaint(const Sheet& sheet, const config::PaintStroke& one) {
@@ -134,7 +134,7 @@ TEST(Paint, AScreenDirectionIsBroughtBackToTheRestPose) {
                         return from_above(mapped(
                             sheet, [](const glm::dvec3& x) { return glm::dvec3(0.2 + 0.5 * x.x, x.y, 0); }));
                       }};
-  const glm::dvec3 p = paint(canvas, {one})[4 * 9 + 4];
+  const glm::dvec3 p = paint(canvas, {one}).bias[4 * 9 + 4];
   EXPECT_NEAR(std::abs(glm::dot(glm::normalize(p), glm::normalize(glm::dvec3(2, 1, 0)))), 1,
               1e-5);  // μ of the regression
 }

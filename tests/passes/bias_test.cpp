@@ -138,8 +138,7 @@ TEST_F(Bias, SolvedWavesComeBackAsTheyWere) {
   for (int round = 0; round < 3; ++round) {
     const Readings flat = at({1.4, 1, 1});
     for (std::size_t v = 0; v < sheet.size(); ++v) EXPECT_EQ(flat.status[v], 0) << v;
-    if (round == 2) at({1.4, 0.7, 1});  // waves along y, and then back
-    if (round == 2) at({1.4, 1, 1});
+    if (round == 2) at({1.4, 0.7, 1});  // waves along y, which turn back without being gone
     const Readings back = at({1, 1, 1});
     for (std::size_t v = 0; v < sheet.size(); ++v) {
       EXPECT_EQ(back.status[v], 1) << v;

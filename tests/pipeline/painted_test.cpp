@@ -85,7 +85,7 @@ void expect_texture_of(const std::filesystem::path& model) {
   }
   const test::TemporaryFolder folder;
   io::write_png(folder / "bias.png", paint::encode_bias(scene.surface(), scene.rest, bias, 1024));
-  const auto back = paint::read_bias(folder / "bias.png", scene.surface(), scene.rest);
+  const auto back = paint::read_bias(folder / "bias.png", scene.surface(), scene.rest).bias;
   std::vector<bool> has_uv(bias.size(), false);
   for (const Part& part : scene.surface().parts)
     for (std::size_t c = 3 * part.first_triangle; c < 3 * (part.first_triangle + part.triangle_count); ++c)

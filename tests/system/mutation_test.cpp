@@ -161,18 +161,20 @@ TEST_P(FieldMutations, AreNoticed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, FieldMutations,
-    ::testing::Values(
-        Mutation{"NothingAsBias", "", "", "", "bias"}, Mutation{"NothingCarried", "", "", "", "direct"},
-        Mutation{"PhaseComesBack", "crush.comp", "along < 0.0 ? -bias.z : bias.z", "bias.z + 0.1", "bias",
-                 "crush.phase"},
-        Mutation{"ComesBackAsFresh", "crush.comp", "bias.w > 0.0 &&", "false &&", "bias", "crush.status"},
-        Mutation{"StretchAlongCarried", "crush.comp", "(1.0 / max(", "(1.01 / max(", "direct", "crush.r"},
-        Mutation{"CarriedPlace", "displacement.comp", "dot(b, field_amplitude)",
-                 "1.01 * dot(b, field_amplitude)", "direct", "displacement.relief"},
-        Mutation{"CarriedSlope", "displacement.comp", "c * swell - 2.0 * pi", "c * swell - 1.98 * pi",
-                 "direct", "displacement.normal"},
-        Mutation{"CarriedTurns", "render.frag", "2.0 * pi * (turns", "1.9 * pi * (turns", "direct",
-                 "render"}),
+    ::testing::Values(Mutation{"NothingAsBias", "", "", "", "bias"},
+                      Mutation{"NothingCarried", "", "", "", "direct"},
+                      Mutation{"PhaseComesBack", "crush.comp", "along < 0.0 ? -bias.z : bias.z",
+                               "bias.z + 0.1", "bias", "crush.phase"},
+                      Mutation{"ComesBackAsFresh", "crush.comp", "bias.w > 0.0 && along", "false && along",
+                               "bias", "crush.status"},
+                      Mutation{"StretchAlongCarried", "crush.comp", "(1.0 / max(", "(1.01 / max(", "direct",
+                               "crush.r"},
+                      Mutation{"CarriedPlace", "displacement.comp", "dot(b, field_amplitude)",
+                               "1.01 * dot(b, field_amplitude)", "direct", "displacement.relief"},
+                      Mutation{"CarriedSlope", "displacement.comp", "c * swell - 2.0 * pi",
+                               "c * swell - 1.98 * pi", "direct", "displacement.normal"},
+                      Mutation{"CarriedTurns", "render.frag", "2.0 * pi * (turns", "1.9 * pi * (turns",
+                               "direct", "render"}),
     [](const auto& mutation) { return mutation.param.name; });
 
 }  // namespace

@@ -87,6 +87,67 @@ TEST_F(Paint, StrokesAndTheirFilesMakeTheSameFrames) {
   EXPECT_EQ(nlohmann::json::parse(read_text(report))["passes"]["crush"]["ok"], false);
 }
 
+// A solved field as a stroke: what it says is what the passes start with, as vertices and as texture, and it
+// may be erased and painted over as any other.
+TEST_F(Paint, ASolvedFieldIsAStroke) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& name) { return (folder / name).string(); };
+  ASSERT_EQ(plisse({"drape", "--example", "twisted-cylinder", "--steps", "4", "--frames", "1-4", "-o",
+                    path("tube_####.ply")})
+                .code,
+            0);
+  ASSERT_EQ(plisse({"wrinkle", path("tube_0004.ply"), "-o", path("field.ply")}).code, 0);
+  // Twisted, half, not at all, and back.
+  for (const auto& [frame, from] : {std::pair(1, 4), {2, 2}, {3, 1}, {4, 2}, {5, 4}})
+    std::filesystem::copy(path("tube_000" + std::to_string(from) + ".ply"),
+                          path("model_" + std::to_string(frame) + ".ply"));
+  const auto scene = [&](const std::string& name, const std::string& bias) {
+    write_text(folder / name, "[model]\npath = \"model_#.ply\"\n[output]\nsize = \"240x300\"\n" + bias);
+    return path(name);
+  };
+  scene("bare.toml", "");
+  const std::string strokes = "scene = \"bare.toml\"\n[[stroke]]\nkind = \"field\"\nfile = \"field.ply\"\n";
+  write_text(folder / "field.paint.toml", strokes);
+  const std::string report = path("report.json");
+  const Outcome outcome = plisse({"paint", path("field.paint.toml"), "-o", path("out"), "--json", report});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("against the field drawn directly, from bias.png"));
+  const auto error = nlohmann::json::parse(read_text(report))["field_error"];
+  // Waves of 1.1 edges: at rest 5 % are asked for. The texture's wavelengths have steps of 3 %. The clip
+  // pulls all waves flat and brings them back.
+  EXPECT_LT(error["vertices"], 0.05);
+  EXPECT_GT(error["vertices"], 0.001);
+  EXPECT_LT(error["texture"], 0.06);
+  EXPECT_LT(error["clip"], 0.1);
+  // The same pictures as from the field itself, but for rounding; a texture's differ by a little more.
+  const auto first = [&](const std::string& name, const std::string& bias) {
+    const std::string frames = path(name) + "_frames";
+    EXPECT_EQ(plisse({"render", scene(name, bias), "-q", "-o", frames, "--frames", "1"}).code, 0);
+    return io::load_image(frames + "/frame_0001.png").rgba;
+  };
+  const auto solved = first("solved.toml", "[bias]\nfield = \"field.ply\"\n"),
+             painted = first("painted.toml", "[bias]\npaint = \"field.paint.toml\"\n"),
+             vertices = first("ply.toml", "[bias]\nfile = \"out/bias.ply\"\n"),
+             texture = first("png.toml", "[bias]\nfile = \"out/bias.png\"\n"), bare = first("plain.toml", "");
+  const auto unlike = [&](const std::vector<std::uint8_t>& one) {
+    double sum = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) sum += std::abs(int{one[i]} - int{solved[i]});
+    return sum / static_cast<double>(one.size());
+  };
+  EXPECT_LT(unlike(painted), 0.01);
+  EXPECT_EQ(vertices, painted);
+  EXPECT_LT(unlike(texture), 0.5);
+  EXPECT_GT(unlike(bare), 2 * unlike(texture));
+  EXPECT_EQ(plisse({"verify", path("painted.toml"), "-q"}).code, 0);
+  // Erased and painted over, no wave is the field's; and no texture of waves is left from the run before.
+  write_text(folder / "field.paint.toml", strokes + "[[stroke]]\nkind = \"fill\"\nmode = \"erase\"\n");
+  EXPECT_EQ(first("erased.toml", "[bias]\npaint = \"field.paint.toml\"\n"), bare);
+  write_text(folder / "field.paint.toml", strokes + "[[stroke]]\nkind = \"fill\"\ndirection = [0, 1, 0]\n");
+  EXPECT_TRUE(std::filesystem::exists(path("out/bias_waves.png")));
+  EXPECT_EQ(plisse({"paint", path("field.paint.toml"), "-o", path("out"), "-q"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("out/bias_waves.png")));
+}
+
 TEST_F(Paint, SaysWhatIsWrongWithItsLine) {
   const TemporaryFolder folder;
   square_scene(folder, "bare.toml", "");
