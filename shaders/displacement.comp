@@ -84,8 +84,12 @@ void main() {
 #else
     float amplitude = dot(at.w, h);
 #endif
-    float largest = sqrt(max(dot(wavenumbers[0], wavenumbers[0]),
-                             max(dot(wavenumbers[1], wavenumbers[1]), dot(wavenumbers[2], wavenumbers[2]))));
+    vec3 squares = vec3(dot(wavenumbers[0], wavenumbers[0]), dot(wavenumbers[1], wavenumbers[1]),
+                        dot(wavenumbers[2], wavenumbers[2]));
+#ifdef FIELD
+    squares *= vec3(greaterThan(h, vec3(0.0)));  // beside a field waves without height count for nothing
+#endif
+    float largest = sqrt(max(squares.x, max(squares.y, squares.z)));
 
     vec3 sliding = vec3(0.0), slide_direction = vec3(0.0), slide_climb = vec3(0.0);  // Δ; its derivative as an outer product
 #ifdef FIELD

@@ -2,7 +2,8 @@
 // texture (eq. 10, 11). docs/passes.md, "Render". By define: PLAIN, the same surface without waves; DISPLACED, with PLAIN,
 // one whose waves are geometry; SINUSOID, whose profile needs no table; FIELD, a solved wrinkle field besides; ALPHA, for
 // materials that are masked or blended (a discard, though never taken, costs 8 %); TEXTURED, NORMAL_MAP and VERTEX_COLOURS, for
-// those that have them; FADED, where every wave is shorter than two pixels.
+// those that have them; FADED, where every wave is shorter than two pixels; FIELD_ALONE, with FIELD, where no other wave has a
+// height.
 #include "common/constants.glsl"
 
 #if defined(TEXTURED) || defined(NORMAL_MAP)
@@ -66,6 +67,12 @@ Wrinkle wrinkle_at(vec3 b) {
     vec3 lost = vec3(1.0);
 #endif
     return Wrinkle(0.0, vec3(0.0), 0.0, dot(weights_at(b).w, steepness.xyz * lost));
+}
+#elif defined(FIELD_ALONE)
+Wrinkle wrinkle_at(vec3 b) {
+    Wrinkle result = Wrinkle(0.0, vec3(0.0), 0.0, 0.0);
+    add_field(result, weights_at(b), b);
+    return result;
 }
 #else
 Wrinkle wrinkle_at(vec3 b) {

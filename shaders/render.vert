@@ -95,8 +95,12 @@ void main() {
 #endif
 #ifndef PLAIN
     weights = vec2(corner == 1u, corner == 2u);
+    vec3 h = vec3(0.0);
+#ifdef FIELD_ALONE
+    float largest = 0.0;
+    steepness = vec4(0.0);
+#else
     vec3 wavenumbers[3];
-    vec3 h;
     for (uint i = 0u; i < 3u; ++i) {
         vec4 its = wave(id[i]);
         wavenumbers[i] = its.x * t[i] + its.y * cross(n[i], t[i]);
@@ -107,13 +111,17 @@ void main() {
     }
     vec3 squares = vec3(dot(wavenumbers[0], wavenumbers[0]), dot(wavenumbers[1], wavenumbers[1]),
                         dot(wavenumbers[2], wavenumbers[2]));
+#ifdef FIELD
+    squares *= vec3(greaterThan(h, vec3(0.0)));  // beside a field waves without height count for nothing
+#endif
     float largest = sqrt(max(squares.x, max(squares.y, squares.z)));
     vec3 climbs = (2.0 * pi) * h;
     climb_a = climbs.x * wavenumbers[0];
     climb_b = climbs.y * wavenumbers[1];
     climb_c = climbs.z * wavenumbers[2];
-    heights = vec4(h, 0.25 / largest);
     steepness = vec4(0.5 * surface.w * climbs * climbs * squares, 2.0 * pi * largest);
+#endif
+    heights = vec4(h, 0.25 / largest);
 #ifdef AOV
     wavenumber_a = wavenumbers[0];
     wavenumber_b = wavenumbers[1];

@@ -5,7 +5,9 @@ INTERFACE Varyings {
     vec3 normal;
     vec2 uv;
 #ifndef PLAIN
+#ifndef FIELD_ALONE
     vec3 tau;           // the three waves' phases here, turns; linear over the triangle
+#endif
     vec2 weights;       // barycentric β, γ
 #ifdef FIELD
     vec3 field_tau;     // the carried field's three phases here, turns; linear over the triangle
@@ -28,9 +30,11 @@ INTERFACE Varyings {
 #endif
 };
 #ifndef PLAIN
+#ifndef FIELD_ALONE
 FLAT vec3 climb_a;            // 2π h_j κ_j: the steepest gradient of each wave
 FLAT vec3 climb_b;
 FLAT vec3 climb_c;
+#endif
 FLAT vec4 heights;            // h_A, h_B, h_C; λ/4, λ = 1/max |κ|
 FLAT vec4 steepness;          // ½ m (2π h_j |κ_j|)²; 2π max |κ|
 FLAT vec3 gradient_beta;      // ∇β, ∇γ in the triangle's plane; ∇α is minus their sum

@@ -32,8 +32,9 @@ struct Difference {
   double phase = 0;
 };
 
-std::vector<std::vector<Difference>> differences(const Surface& surface, const SurfaceField& field) {
-  std::vector<std::vector<Difference>> all(surface.vertex_count());
+// work(vertex, difference) for all of them.
+template <typename Work>
+void for_differences(const Surface& surface, const SurfaceField& field, const Work& work) {
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
     const auto id = [&](std::size_t c) {
       return surface.render_vertices[surface.triangles[3 * t + c]].welded;
@@ -42,11 +43,16 @@ std::vector<std::vector<Difference>> differences(const Surface& surface, const S
       for (const std::size_t other : {(c + 1) % 3, (c + 2) % 3}) {
         // A phase without amplitude has no meaning.
         if (!(field.amplitude[id(c)] > 0 && field.amplitude[id(other)] > 0)) continue;
-        all[id(c)].push_back({id(other), surface.rest[id(other)] - surface.rest[id(c)],
-                              field.phase[t][other] - field.phase[t][c]});
+        work(id(c), Difference{id(other), surface.rest[id(other)] - surface.rest[id(c)],
+                               field.phase[t][other] - field.phase[t][c]});
       }
     }
   }
+}
+
+std::vector<std::vector<Difference>> differences(const Surface& surface, const SurfaceField& field) {
+  std::vector<std::vector<Difference>> all(surface.vertex_count());
+  for_differences(surface, field, [&](std::uint32_t v, const Difference& d) { all[v].push_back(d); });
   return all;
 }
 
@@ -176,16 +182,15 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
                                           const SurfaceField& field, const std::vector<double>& mask,
                                           std::vector<glm::dvec3> gradients) {
   if (gradients.empty()) gradients = phase_gradients(surface, rest, field);
-  std::vector<bool> smooth;
-  const auto all = differences(surface, field);
-  for (std::size_t v = 0; v < all.size(); ++v) {
-    smooth.push_back(!all[v].empty() && std::all_of(all[v].begin(), all[v].end(), [&](const Difference& d) {
-      const double alone = glm::dot(gradients[v], d.edge),
-                   reached = 0.5 * (alone + glm::dot(gradients[d.to], d.edge));
-      // The mean may be right where both gradients are wrong, against each other.
-      return std::abs(reached - d.phase) < pi / 2 && std::abs(alone - d.phase) < pi;
-    }));
-  }
+  std::vector<std::uint8_t> smooth(surface.vertex_count(), 0), torn(surface.vertex_count(), 0);
+  for_differences(surface, field, [&](std::uint32_t v, const Difference& d) {
+    const double alone = glm::dot(gradients[v], d.edge),
+                 reached = 0.5 * (alone + glm::dot(gradients[d.to], d.edge));
+    smooth[v] = 1;
+    // The mean may be right where both gradients are wrong, against each other.
+    if (!(std::abs(reached - d.phase) < pi / 2 && std::abs(alone - d.phase) < pi)) torn[v] = 1;
+  });
+  for (std::size_t v = 0; v < smooth.size(); ++v) smooth[v] = smooth[v] == 1 && torn[v] == 0 ? 1 : 0;
   std::vector<FieldTriangle> result(surface.triangle_count());
   for (std::size_t t = 0; t < result.size(); ++t) {
     const auto id = [&](std::size_t c) {
@@ -196,7 +201,7 @@ std::vector<FieldTriangle> field_directly(const Surface& surface, const RestFram
       result[t].amplitude[j] = mask[id(j)] * field.amplitude[id(j)];
       for (std::size_t k = 0; k < 3; ++k) {
         const double phase =
-            smooth[id(j)]
+            smooth[id(j)] == 1
                 ? field.phase[t][j] + glm::dot(gradients[id(j)], surface.rest[id(k)] - surface.rest[id(j)])
                 : field.phase[t][k];
         result[t].turns[j][k] = phase / (2 * pi) - whole;

@@ -76,7 +76,7 @@ unsigned features_of(const DrawPart& part) {
          (part.has_colours ? with_colours : 0U) | (part.texture >= 0 ? with_texture : 0U);
 }
 // Features that its waves do not need in this frame.
-constexpr unsigned without_waves = 16, faded_waves = 32;
+constexpr unsigned without_waves = 16, faded_waves = 32, only_field = 64;
 
 // The floor's own axes and the corner of the ground map.
 struct GroundFrame {
@@ -327,6 +327,7 @@ gpu::Program RenderPass::make_program(const std::vector<std::string>& files, gpu
   if (features & with_texture) defines.emplace_back("TEXTURED", "1");
   if (features & without_waves) defines.emplace_back("PLAIN", "1");
   if (features & faded_waves) defines.emplace_back("FADED", "1");
+  if (features & only_field) defines.emplace_back("FIELD_ALONE", "1");
   return {files, defines, shader_folder_};
 }
 
@@ -347,7 +348,9 @@ void RenderPass::draw_parts(Programs& programs, bool blended, bool as_shown) {
     if (as_shown && !shown_[i].in_view) continue;
     unsigned features = features_of(part);
     if (as_shown && shown_[i].waves != Detail::full) {
-      features |= shown_[i].waves == Detail::none ? without_waves : faded_waves;
+      features |= shown_[i].waves == Detail::none    ? without_waves
+                  : shown_[i].waves == Detail::faded ? faded_waves
+                                                     : only_field;
       // Compiled at its first use: most runs need only one of each kind.
       if (!programs.contains(features))
         programs.emplace(features, make_program(surface_files(), picture_defines(), features));
@@ -400,7 +403,7 @@ gpu::Rectangle RenderPass::choose(const SurfaceBuffers& surface, const View& vie
   shown_.assign(parts_.size(), {});
   left_out_ = {};
   const bool has_waves = !look_.plain && !look_.displaced;
-  const bool flat = has_waves && !look_.field && !surface.any_height();
+  const bool idle = has_waves && !surface.any_height(), flat = idle && !look_.field;
   gpu::Rectangle area;
   std::optional<PartShapes::Posed> posed;
   if (software) posed = shapes_of(surface).posed(surface, view.view_projection, width, height);
@@ -424,6 +427,8 @@ gpu::Rectangle RenderPass::choose(const SurfaceBuffers& surface, const View& vie
     } else if (has_waves && posed && !look_.field && posed->waves_are_too_fine(i)) {
       shown.waves = Detail::faded;
       ++left_out_.too_fine;
+    } else if (idle) {
+      shown.waves = Detail::field_alone;
     }
   }
   left_out_.nothing_in_view = software && area.empty();

@@ -129,7 +129,7 @@ class RenderPass {
   gpu::Rectangle choose(const SurfaceBuffers& surface, const View& view, const gpu::Target& target,
                         bool software);
   const PartShapes& shapes_of(const SurfaceBuffers& surface);
-  enum class Detail { full, faded, none };  // of waves
+  enum class Detail { full, faded, field_alone, none };  // of waves
   struct Shown {
     bool in_view = true;
     Detail waves = Detail::full;

@@ -74,10 +74,9 @@ void Stepper::relax() {
 }
 
 void Stepper::leave_out_masked() {
-  // With a carried field the result of crush still has an effect: waves without height count in max |κ|
-  // (docs/passes.md, "Cavity").
-  all_masked_ = scene_.waves.field.empty() &&
-                std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
+  all_masked_ = std::ranges::none_of(scene_.waves.mask, [](double mask) { return mask > 0; });
+  const std::uint32_t any_height = 0;
+  if (all_masked_) surface_.counter.write(&any_height, sizeof any_height, 2 * sizeof any_height);
 }
 
 double Stepper::last_round_moved() const {

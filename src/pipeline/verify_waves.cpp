@@ -174,10 +174,11 @@ void WaveComparison::compare_crush(const WaveSnapshot& gpu) {
                : Eigen::Vector2d(0, 0);
     if (!status_hangs_on_rounding(e, before_.states[v], reference_.crush.dead_zone, q)) {
       status_.add(gpu.states[v].status == e.status ? 0 : 1);
-      if (e.phase) {
-        const double sign = e.direction.dot(gpu.states[v].direction) < 0 ? -1 : 1;
-        begun_.add(std::abs(wrapped_difference(sign * gpu.phases[i], *e.phase)));
-      }
+      // Only a wave that comes back as solved gets a phase here.
+      const bool turned = e.phase && e.direction.dot(gpu.states[v].direction) < 0;
+      if (!scene_.has_bias_a_frame())
+        begun_.add(std::abs(wrapped_difference(turned ? -gpu.phases[i] : gpu.phases[i],
+                                               e.phase.value_or(before_.phases[i]))));
     }
     if (e.direction.norm() == 0 || gpu.states[v].direction.norm() == 0) continue;
     const Eigen::Vector2d own = gpu.wavenumbers.col(i) * W, kept = before_.states[v].direction;

@@ -54,7 +54,7 @@ class WaveComparison {
   WaveSnapshot remembered_;               // the target of a closing loop
   Tally skin_, frame_;
   Tally r_, height_, easing_, weight_, wave_vector_, status_;
-  Tally relax_, ten_rounds_, lead_, begun_;  // begun_: phases of waves that came back as solved
+  Tally relax_, ten_rounds_, lead_, begun_;  // begun_: phases after crush
 };
 
 }  // namespace plisse::pipeline

@@ -63,7 +63,10 @@ Displaced displace(const Triangle& triangle, const Matrix3d& directions, const V
     result.amplitude += carried.amplitude;
     gradient += carried.gradient;
     const Matrix3d planes = slopes * triangle.field->turns.transpose();
-    longest = std::max(longest, planes.colwise().norm().maxCoeff());
+    longest = planes.colwise().norm().maxCoeff();
+    for (int j = 0; j < 3; ++j)
+      if (triangle.waves.heights[j] > 0)
+        longest = std::max(longest, triangle.waves.wavenumbers.col(j).norm());
     if (carried.amplitude > 0) sliding = in_plane_motion(*triangle.field, corners, barycentric, blend);
   }
   result.sky_front = groove_occlusion(cavity, result.amplitude, result.height, longest);

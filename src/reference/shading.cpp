@@ -154,7 +154,9 @@ Shaded shade(const Scene& scene, const Triangle& triangle, const Fragment& fragm
     lost_slope +=
         0.5 * std::pow(2 * pi * carried.amplitude, 2) * carried.slope.squaredNorm() * (1 - left * left);
     const Matrix3d slopes = barycentric_gradients(waves.corners) * field.turns.transpose();
-    longest_wavenumber = std::max(longest_wavenumber, slopes.colwise().norm().maxCoeff());
+    longest_wavenumber = slopes.colwise().norm().maxCoeff();
+    for (int j = 0; j < 3; ++j)
+      if (waves.heights[j] > 0) longest_wavenumber = std::max(longest_wavenumber, wavenumber[j]);
   }
   const double height = side * wave.height;
   const double occlusion = groove_occlusion(shading.cavity, amplitude, height, longest_wavenumber);
