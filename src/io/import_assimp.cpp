@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <new>
 
 #include "base/error.h"
@@ -175,6 +176,9 @@ Model import_assimp(const std::filesystem::path& path, const ImportOptions& opti
   Model model;
   model.path = path;
   AssimpScene from{*scene, kind_of(path), path, {}, {}, {}, {}, {}};
+  std::unique_ptr<FbxReading> fbx;
+  if (from.kind == FileKind::fbx) fbx = FbxReading::read(path, *scene);
+  from.fbx = fbx.get();
   const Space space = from.kind == FileKind::fbx       ? space_of_fbx(*scene)
                       : from.kind == FileKind::collada ? space_of_collada(path)
                                                        : Space{1, has_z_up(path) ? "z" : "y"};

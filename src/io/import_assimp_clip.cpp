@@ -1,4 +1,5 @@
-// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are linear.
+// The assimp reader's clips. assimp 5.2.5 keeps no interpolation mode: keys are
+// linear, but those of FBX files, which come from the file's own tree (import_fbx.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,6 +61,10 @@ Keys<std::vector<double>> read_morph_keys(const aiMeshMorphAnim& source, double 
 }  // namespace
 
 void read_clips(const AssimpScene& from, Model& model) {
+  if (from.fbx != nullptr) {
+    from.fbx->read_clips(model);
+    return;
+  }
   for (unsigned a = 0; a < from.scene.mNumAnimations; ++a) {
     const aiAnimation& source = *from.scene.mAnimations[a];
     const double ticks_per_second =

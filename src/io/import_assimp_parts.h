@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "io/import_fbx.h"
 #include "io/model.h"
 
 namespace plisse::io {
@@ -28,6 +29,7 @@ struct AssimpScene {
   std::unordered_map<const aiNode*, glm::dmat4> geometric;
   std::vector<int> mesh_ids;          // aiMesh → index into Model::meshes, −1 without triangles
   std::vector<unsigned> uv_channels;  // per aiMaterial: the uv set of its base-colour texture
+  FbxReading* fbx = nullptr;          // the file's own tree; null: of another kind, or it cannot be read
 };
 
 inline glm::dvec3 vec3(const aiVector3D& v) {
