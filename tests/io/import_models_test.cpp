@@ -325,6 +325,8 @@ TEST_F(Models, FbxPivotsBothWays) {
     const aiMesh& mesh = *scene->mMeshes[0];
     for (unsigned c = 0; c < scene->mNumAnimations; ++c) {
       const aiAnimation& clip = *scene->mAnimations[c];
+      // Its joints change their scale and do not inherit it (Rrs), which assimp does not know.
+      if (std::string_view(clip.mName.C_Str()) == "deform") continue;
       scene::Animation animation(model,
                                  {.clip = std::to_string(c), .frames_per_second = item.frames_per_second});
       for (const int frame :
