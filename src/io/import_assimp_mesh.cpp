@@ -166,6 +166,10 @@ Mesh read_mesh(const AssimpScene& from, unsigned mesh_id) {
   read_colours(source, mesh);
   read_bones(from, mesh_id, mesh);
   read_targets(source, mesh);
+  if (from.fbx != nullptr)
+    if (const aiNode* holder = node_with(*from.scene.mRootNode, mesh_id))
+      if (auto targets = from.fbx->lost_targets(*holder, mesh_id, source); !targets.empty())
+        mesh.targets = std::move(targets);
   return mesh;
 }
 

@@ -130,7 +130,7 @@ void hang(const aiNode& node, const AssimpScene& from, bool show_all, Model& mod
     if (targets <= holder.morph_weights.size()) continue;
     holder.morph_weights.resize(targets, 0);
     const aiMesh& source = *from.scene.mMeshes[node.mMeshes[m]];
-    for (std::size_t t = 0; t < targets; ++t) {
+    for (std::size_t t = 0; t < std::min<std::size_t>(targets, source.mNumAnimMeshes); ++t) {
       const double weight = static_cast<double>(source.mAnimMeshes[t]->mWeight);
       // For FBX 5.2.5 writes 1 wherever a channel has one shape, whatever the file says; 0 is what files
       // mean.

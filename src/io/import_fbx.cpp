@@ -297,6 +297,69 @@ std::vector<double> FbxReading::weights(const FbxObject& model, std::size_t targ
   return result;
 }
 
+std::vector<MorphTarget> FbxReading::lost_targets(const aiNode& holder, unsigned mesh,
+                                                  const aiMesh& source) const {
+  std::vector<MorphTarget> targets;
+  const FbxObject* model = model_of(holder);
+  if (model == nullptr) return targets;
+  const std::vector<const FbxObject*> geometries = scene_.sources(model->id, "Geometry");
+  if (geometries.size() != 1) return targets;
+  std::vector<const FbxObject*> shapes;
+  std::vector<const FbxObject*> channels;
+  for (const FbxObject* deformer : scene_.sources(geometries[0]->id, "Deformer"))
+    if (deformer->type == "BlendShape")
+      for (const FbxObject* channel : scene_.sources(deformer->id, "Deformer"))
+        if (channel->type == "BlendShapeChannel")
+          for (const FbxObject* shape : scene_.sources(channel->id, "Geometry")) {
+            shapes.push_back(shape);
+            channels.push_back(channel);
+          }
+  if (shapes.size() == source.mNumAnimMeshes) return targets;
+  try {
+    // assimp has a vertex for each corner; of several materials one mesh each, in the order of their first
+    // polygons.
+    const FbxElement* corners = geometries[0]->element->child("PolygonVertexIndex");
+    const FbxElement* layer = geometries[0]->element->child("LayerElementMaterial");
+    const FbxElement* list = layer == nullptr ? nullptr : layer->child("Materials");
+    const std::vector<std::int64_t> materials =
+        list == nullptr ? std::vector<std::int64_t>() : list->integers();
+    std::vector<std::int64_t> met;
+    for (const std::int64_t material : materials)
+      if (std::find(met.begin(), met.end(), material) == met.end()) met.push_back(material);
+    const bool split = holder.mNumMeshes > 1;
+    unsigned ordinal = 0;
+    while (ordinal < holder.mNumMeshes && holder.mMeshes[ordinal] != mesh) ++ordinal;
+    if (corners == nullptr || (split && ordinal >= met.size())) return targets;
+    std::vector<std::int64_t> points;
+    std::size_t polygon = 0;
+    for (const std::int64_t corner : corners->integers()) {
+      const bool own = !split || (polygon < materials.size() && materials[polygon] == met[ordinal]);
+      if (own) points.push_back(corner < 0 ? -corner - 1 : corner);
+      polygon += corner < 0 ? 1 : 0;
+    }
+    if (points.size() != source.mNumVertices) return targets;
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      const FbxElement* indices = shapes[s]->element->child("Indexes");
+      const FbxElement* vertices = shapes[s]->element->child("Vertices");
+      MorphTarget& target = targets.emplace_back();
+      target.name = channels[s]->name;
+      target.position_deltas.assign(points.size(), glm::vec3{0});
+      if (indices == nullptr || vertices == nullptr) continue;
+      const std::vector<std::int64_t> of = indices->integers();
+      const std::vector<double> by = vertices->numbers();
+      std::unordered_map<std::int64_t, std::size_t> place;
+      for (std::size_t i = 0; i < of.size() && 3 * i + 2 < by.size(); ++i) place[of[i]] = i;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        if (const auto found = place.find(points[v]); found != place.end())
+          target.position_deltas[v] =
+              glm::vec3(by[3 * found->second], by[3 * found->second + 1], by[3 * found->second + 2]);
+    }
+  } catch (const std::runtime_error&) {
+    targets.clear();
+  }
+  return targets;
+}
+
 std::vector<double> FbxReading::knots(const FbxObject& model, const FbxTake& take) const {
   std::vector<double> times{take.start(), take.stop()};
   const auto add = [&](const FbxObject& of, std::string_view name) {

@@ -46,6 +46,9 @@ class FbxReading {
   // The weights of a mesh's targets; empty where the tree has others than the mesh.
   std::vector<double> weights(const FbxObject& model, std::size_t targets, const FbxTake* take, double time,
                               bool from_left) const;
+  // The targets of a mesh whose shapes assimp has lost (it does not read those without normals): empty where
+  // there are none, or where the tree's corners are not the mesh's.
+  std::vector<MorphTarget> lost_targets(const aiNode& holder, unsigned mesh, const aiMesh& source) const;
   void read_clips(Model& model) const;
 
  private:

@@ -197,6 +197,15 @@ TEST_F(Fbx, ShapesThatMove) {
   EXPECT_NEAR(high(moving, 1).x, 1 + 5, tolerance);
 }
 
+// As Maya writes them; assimp loses the whole shape.
+TEST_F(Fbx, ShapesWithoutNormals) {
+  std::string text = shapes("50", "100");
+  const std::size_t normals = text.find(" Normals:");
+  text.erase(normals, text.find("}", normals) + 2 - normals);
+  scene::Animation half = animation(file(text, shape_links(false)));
+  EXPECT_NEAR(high(half, 0).x, 2, tolerance);
+}
+
 TEST_F(Fbx, HiddenNodes) {
   const auto triangles = [&](const std::string& properties) {
     scene::Animation of =
