@@ -78,7 +78,8 @@ FbxCurve::FbxCurve(const FbxScene& scene, const FbxObject& object) {
   for (std::size_t a = 0; a < flags.size(); ++a) {
     Attribute& one = attributes.emplace_back();
     one.flags = static_cast<std::int64_t>(flags[a]);
-    for (std::size_t d = 0; d < 3 && 4 * a + d < data.size(); ++d) one.data[d] = data[4 * a + d];
+    for (std::size_t d = 0; d < 3 && 4 * a + d < data.size(); ++d)
+      if (std::isfinite(data[4 * a + d])) one.data[d] = data[4 * a + d];
   }
   std::size_t attribute = 0;
   double left = counts.empty() ? 1 : counts[0];
@@ -303,6 +304,7 @@ class Fitter {
     }
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       reference_ = value(knots[k], false);
+      pieces_ = 0;
       piece(knots[k], knots[k + 1], 0);
     }
     // What a constant key leaves for the very end.
@@ -342,14 +344,14 @@ class Fitter {
       }
     }
     constexpr int deepest = 24;
-    constexpr std::size_t most_keys = 2'000'000;
-    if (depth < deepest && length > 1e-7 && keys_.times.size() < most_keys &&
-        !close(from, length, a, b, out, in)) {
+    constexpr int most_pieces = 4096;  // from knot to knot: more are of damaged numbers
+    if (depth < deepest && length > 1e-7 && pieces_ < most_pieces && !close(from, length, a, b, out, in)) {
       const double middle = (from + to) / 2;
       piece(from, middle, depth + 1);
       piece(middle, to, depth + 1);
       return;
     }
+    ++pieces_;
     add(from, a, {}, out);
     add(to, b, in, {});
   }
@@ -418,6 +420,7 @@ class Fitter {
   double tolerance_;
   bool normalised_;
   std::vector<double> reference_;
+  int pieces_ = 0;  // since the last knot
   FittedKeys keys_;
 };
 

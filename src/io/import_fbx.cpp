@@ -179,12 +179,12 @@ bool FbxReading::parent_unscaled(const FbxObject& model) const {
   const FbxObject* above = parent(model);
   if (inherit == RSrs || above == nullptr) return false;
   // Where the parent's scale is even and still, plain matrices do the same for RrSs.
-  for (const FbxObject* one = above; one != nullptr;) {
+  const FbxObject* one = above;
+  for (int depth = 0; one != nullptr && depth < deepest; ++depth) {
     for (const FbxTake& take : takes_)
       if (take.track(one->id, "Lcl Scaling") != nullptr) return true;
     if (static_cast<int>(scene_.number(*one, "InheritType", RrSs)) == RSrs) break;
-    const FbxObject* next = parent(*one);
-    one = next == one ? nullptr : next;
+    one = parent(*one);
   }
   const glm::dvec3 scale = whole_scale(*above, nullptr, 0, false, 0);
   const bool even = scale.x == scale.y && scale.y == scale.z;
