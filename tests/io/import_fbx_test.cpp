@@ -128,6 +128,48 @@ TEST_F(Fbx, AutomaticTangents) {
   EXPECT_NEAR(high(clamped, 0.5).x - 1, 0.05 - 0.3 / 8, tolerance);
 }
 
+// Tension 0, continuity 0 and bias 0 are Catmull and Rom's tangents: the mean of both secants. With tension 1
+// they are flat.
+TEST_F(Fbx, TangentsOfTensionContinuityAndBias) {
+  scene::Animation plain = moved("Lcl Translation", "0,1,4", std::to_string(0x208), "0,0,0,0");
+  // From 0 to 1 with the slopes 1 (there is one secant) and (1 + 3)/2; from 1 to 4 with 2 and 3.
+  EXPECT_NEAR(high(plain, 0.5).x - 1, 0.5 + (1 - 2) / 8.0, tolerance);
+  EXPECT_NEAR(high(plain, 1.5).x - 1, 2.5 + (2 - 3) / 8.0, tolerance);
+  scene::Animation tense = moved("Lcl Translation", "0,1,4", std::to_string(0x208), "1,0,0,0");
+  EXPECT_NEAR(high(tense, 0.25).x - 1, 3 * 0.0625 - 2 * 0.015625, tolerance);
+}
+
+// What is not read is told once, by its name.
+TEST_F(Fbx, TellsWhatItLeavesOut) {
+  const auto told = [&](const char* what) {
+    EXPECT_THAT(log::warnings(),
+                testing::Contains(testing::AllOf(testing::HasSubstr((folder_ / "m.fbx").string()),
+                                                 testing::HasSubstr(what))));
+  };
+  // A second layer that moves what the first one moves, and a curve that repeats.
+  const std::string more =
+      "AnimationLayer: 4101, \"AnimLayer::M\", \"\" {\n}\n"
+      "AnimationCurveNode: 5001, \"AnimCurveNode::O\", \"\" {\n Properties70:  {\n }\n}\n"
+      "AnimationCurve: 6001, \"AnimCurve::\", \"\" {\n KeyTime: *2 {\n a: 0,46186158000\n }\n"
+      " KeyValueFloat: *2 {\n a: 5,5\n }\n}\n"
+      "Deformer: 7000, \"Deformer::S\", \"Skin\" {\n SkinningType: \"DualQuaternion\"\n}\n"
+      "Cache: 7100, \"Cache::C\", \"\" {\n}\n";
+  std::string repeating = take("0,1,0", "4", "0,0,0,0");
+  repeating.insert(repeating.find(" KeyTime"),
+                   " Post-Extrapolation:  {\n Type: \"R\"\n Repetition: -1\n }\n");
+  scene::Animation first = animation(
+      file(node(1000, "A", "") + repeating + more,
+           "C: \"OO\",1000,0\nC: \"OO\",2000,1000\n" + take_links +
+               "C: \"OO\",4101,4000\nC: \"OO\",5001,4101\nC: \"OP\",5000,1000, \"Lcl Translation\"\n"
+               "C: \"OP\",6000,5000, \"d|X\"\nC: \"OP\",5001,1000, \"Lcl Translation\"\n"
+               "C: \"OP\",6001,5001, \"d|X\"\n"));
+  EXPECT_NEAR(high(first, 0.5).x - 1, 0.5, tolerance);  // the first layer's
+  told("2 animation layers");
+  told("extrapolation");
+  told("dual quaternions");
+  told("geometry caches");
+}
+
 TEST_F(Fbx, TurnsPastHalf) {
   // 0 to 720 degrees about z in a second: an eighth of it is a quarter turn.
   scene::Animation turning = moved("Lcl Rotation", "0,720,0", "4", "0,0,0,0", "d|Z");
