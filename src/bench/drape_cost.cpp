@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "cloth/drape.h"
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 #include "shell/carry.h"
 
 namespace plisse::bench {

@@ -1,7 +1,7 @@
 #include "bench/suite.h"
 
 #include "config/scene_file.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 
 namespace plisse::bench {
 

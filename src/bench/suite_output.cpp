@@ -13,8 +13,8 @@
 #include "bench/film.h"
 #include "bench/suite.h"
 #include "config/settings.h"
-#include "io/flip.h"
-#include "io/png.h"
+#include "io/picture/flip.h"
+#include "io/picture/png.h"
 #include "pipeline/render.h"
 
 namespace plisse::bench {

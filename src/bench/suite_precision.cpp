@@ -7,7 +7,7 @@
 #include "base/colour.h"
 #include "bench/film.h"
 #include "bench/suite.h"
-#include "io/flip.h"
+#include "io/picture/flip.h"
 #include "pipeline/look.h"
 #include "reference/functions.h"
 #include "reference/relax.h"

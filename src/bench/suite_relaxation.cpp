@@ -6,7 +6,7 @@
 
 #include "bench/film.h"
 #include "bench/suite.h"
-#include "io/flip.h"
+#include "io/picture/flip.h"
 #include "reference/relax.h"
 
 namespace plisse::bench {

@@ -9,7 +9,7 @@
 
 #include "bench/film.h"
 #include "bench/suite.h"
-#include "io/flip.h"
+#include "io/picture/flip.h"
 #include "passes/displacement.h"
 #include "pipeline/look.h"
 

@@ -14,7 +14,7 @@
 #include "bench/suite.h"
 #include "cloth/drape.h"
 #include "cloth/wrinkle.h"
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 #include "shell/carry.h"
 #include "sizing/rules.h"
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 
 namespace plisse::bench {
 namespace {

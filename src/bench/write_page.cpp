@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "bench/write.h"
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 
 namespace plisse::bench {
 namespace {

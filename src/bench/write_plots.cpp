@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/write.h"
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 
 namespace plisse::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "io/png.h"
+#include "io/picture/png.h"
 
 namespace plisse::cloth {
 

@@ -10,8 +10,8 @@
 #include "cloth/size_picture.h"
 #include "config/panel_file.h"
 #include "io/obj.h"
+#include "io/picture/png.h"
 #include "io/ply.h"
-#include "io/png.h"
 #include "sizing/sample.h"
 
 namespace plisse::cloth {

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/assimp/import_assimp.h"
+#include "io/gltf/import_gltf.h"
 #include "io/import.h"
-#include "io/import_assimp.h"
-#include "io/import_gltf.h"
 #include "io/import_obj.h"
 #include "io/import_ply.h"
 #include "io/isolated_import.h"

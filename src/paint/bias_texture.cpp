@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "mesh/uv_raster.h"
 #include "paint/bias_file.h"
 #include "paint/uv_frames.h"

@@ -6,8 +6,8 @@
 
 #include "base/colour.h"
 #include "base/error.h"
-#include "io/image.h"
 #include "io/import_place.h"
+#include "io/picture/image.h"
 #include "io/ply.h"
 #include "mesh/place_index.h"
 #include "mesh/weld.h"

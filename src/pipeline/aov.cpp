@@ -10,8 +10,8 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "config/suggest.h"
-#include "io/exr.h"
-#include "io/png.h"
+#include "io/picture/exr.h"
+#include "io/picture/png.h"
 
 namespace plisse::pipeline {
 namespace {

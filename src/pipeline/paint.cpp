@@ -12,7 +12,7 @@
 #include "config/paint_settings.h"
 #include "config/scene_file.h"
 #include "config/settings.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "paint/bias_file.h"
 #include "pipeline/loaded_scene.h"
 #include "pipeline/render.h"

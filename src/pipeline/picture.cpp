@@ -1,6 +1,6 @@
 #include "pipeline/picture.h"
 
-#include "io/png.h"
+#include "io/picture/png.h"
 
 namespace plisse::pipeline {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 
 namespace plisse::pipeline {
 

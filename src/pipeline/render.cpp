@@ -23,7 +23,7 @@
 #include "config/frames.h"
 #include "config/settings.h"
 #include "gpu/shader_source.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "io/sequence.h"
 #include "pipeline/aov.h"
 #include "pipeline/displace.h"

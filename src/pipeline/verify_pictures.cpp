@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/eigen_glm.h"
-#include "io/flip.h"
+#include "io/picture/flip.h"
 #include "reference/backdrop.h"
 #include "reference/depth.h"
 

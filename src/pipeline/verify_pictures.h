@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu/target.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "pipeline/reference_scene.h"
 #include "pipeline/tally.h"
 #include "reference/ground.h"

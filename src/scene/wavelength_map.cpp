@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "io/ply.h"
 #include "mesh/place_index.h"
 #include "mesh/weld.h"

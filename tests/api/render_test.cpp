@@ -15,7 +15,7 @@
 #include "config/options.h"
 #include "config/paint_file.h"
 #include "config/scene_file.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "io/ply.h"
 #include "pipeline/bake.h"
 #include "pipeline/paint.h"

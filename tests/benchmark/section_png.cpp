@@ -2,7 +2,7 @@
 
 #include "benchmark/effort.h"
 #include "benchmark/sections.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 
 namespace plisse::benchmark {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/program.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "support/opengl.h"
 
 namespace plisse {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/image.h"
 #include "io/obj.h"
+#include "io/picture/image.h"
 #include "support/files.h"
 
 namespace plisse {

@@ -1,5 +1,5 @@
 // COLLADA as assimp cannot read it: curves between keys, and lists with blanks before their first number.
-#include "io/collada_text.h"
+#include "io/assimp/collada_text.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Float images: read back by tinyexr's own reader, exactly, and OpenEXR's magic number.
-#include "io/exr.h"
+#include "io/picture/exr.h"
 
 #include <gtest/gtest.h>
 #include <tinyexr.h>

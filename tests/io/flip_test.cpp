@@ -1,7 +1,7 @@
 // FLIP against closed forms for flat colours, against a direct evaluation of the paper's two-dimensional
 // filters at single pixels, and its properties: 0 for equal pictures, symmetric, growing with the error,
 // within [0, 1].
-#include "io/flip.h"
+#include "io/picture/flip.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 
 #include "base/log.h"
 #include "io/import.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "scene/animation.h"
 #include "support/errors.h"
 #include "support/files.h"

@@ -1,6 +1,6 @@
 // Reading pictures: the smallest files of three formats written out by hand from their specifications, and
 // refusals.
-#include "io/image.h"
+#include "io/picture/image.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "support/files.h"
 
 namespace plisse::io {

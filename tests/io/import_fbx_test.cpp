@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "base/log.h"
-#include "io/fbx_tree.h"
+#include "io/fbx/fbx_tree.h"
 #include "io/import.h"
 #include "scene/animation.h"
 #include "support/files.h"

@@ -8,7 +8,7 @@
 
 #include "base/log.h"
 #include "io/import.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "support/files.h"
 
 namespace plisse::io {

@@ -10,7 +10,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "io/import.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "support/files.h"
 
 namespace plisse::io {

@@ -1,6 +1,6 @@
 // PNG frames: read back by an independent decoder (stb_image), chunk by chunk against the specification, and
 // every single damaged byte must be noticed.
-#include "io/png.h"
+#include "io/picture/png.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "support/files.h"
 
 namespace plisse::io {

@@ -1,5 +1,5 @@
 // Plots: what stands where, by reading the SVG back.
-#include "io/svg_plot.h"
+#include "io/picture/svg_plot.h"
 
 #include <gmock/gmock.h>
 

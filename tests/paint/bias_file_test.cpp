@@ -10,8 +10,8 @@
 #include <random>
 
 #include "base/error.h"
-#include "io/image.h"
-#include "io/png.h"
+#include "io/picture/image.h"
+#include "io/picture/png.h"
 #include "support/errors.h"
 #include "support/files.h"
 #include "support/sheets.h"

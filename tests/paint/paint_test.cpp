@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "io/picture/png.h"
 #include "io/ply.h"
-#include "io/png.h"
 #include "paint/canvas.h"
 #include "support/errors.h"
 #include "support/files.h"

@@ -11,7 +11,7 @@
 
 #include "base/colour.h"
 #include "config/scene_file.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "pipeline/render.h"
 #include "support/files.h"
 #include "support/opengl.h"

@@ -7,7 +7,7 @@
 
 #include "config/paint_file.h"
 #include "config/scene_file.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "pipeline/loaded_scene.h"
 #include "support/errors.h"
 #include "support/files.h"

@@ -11,7 +11,7 @@
 #include "config/settings.h"
 #include "gpu/target.h"
 #include "gpu/timer.h"
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "passes/render.h"
 #include "pipeline/history.h"
 #include "pipeline/look.h"

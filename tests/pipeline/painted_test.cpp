@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "config/scene_file.h"
-#include "io/png.h"
+#include "io/picture/png.h"
 #include "paint/bias_file.h"
 #include "pipeline/history.h"
 #include "support/files.h"

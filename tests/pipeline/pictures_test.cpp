@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "config/scene_file.h"
-#include "io/flip.h"
-#include "io/image.h"
-#include "io/png.h"
+#include "io/picture/flip.h"
+#include "io/picture/image.h"
+#include "io/picture/png.h"
 #include "pipeline/render.h"
 #include "support/files.h"
 #include "support/opengl.h"

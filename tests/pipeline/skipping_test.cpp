@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "config/settings.h"
-#include "io/image.h"
-#include "io/png.h"
+#include "io/picture/image.h"
+#include "io/picture/png.h"
 #include "pipeline/history.h"
 #include "pipeline/render.h"
 #include "support/errors.h"

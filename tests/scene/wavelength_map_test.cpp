@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/picture/png.h"
 #include "io/ply.h"
-#include "io/png.h"
 #include "support/files.h"
 #include "support/sheets.h"
 

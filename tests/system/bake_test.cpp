@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "system/blender.h"
 #include "system/plisse.h"
 

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "io/flip.h"
+#include "io/picture/flip.h"
 #include "system/plisse.h"
 
 namespace plisse::test {

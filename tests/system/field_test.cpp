@@ -1,7 +1,7 @@
 // Scenes with a solved wrinkle field: the TFW authors' disk, both ways.
 #include <gmock/gmock.h>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "system/plisse.h"
 
 namespace plisse::test {

@@ -1,7 +1,7 @@
 // Scenes that say panels and a fabric in place of a mesh, from pattern to picture.
 #include <gmock/gmock.h>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "system/plisse.h"
 
 namespace plisse::test {

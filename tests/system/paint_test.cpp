@@ -2,7 +2,7 @@
 // file and by strokes, and that erasing leaves the frames of the bare scene.
 #include <gmock/gmock.h>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "system/plisse.h"
 
 namespace plisse::test {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/image.h"
+#include "io/picture/image.h"
 #include "support/files.h"
 #include "support/opengl.h"
 #include "support/program.h"

@@ -10,8 +10,8 @@
 
 #include "base/colour.h"
 #include "io/import.h"
+#include "io/picture/png.h"
 #include "io/ply.h"
-#include "io/png.h"
 #include "system/plisse.h"
 
 namespace plisse::test {
