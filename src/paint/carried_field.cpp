@@ -39,17 +39,16 @@ Plane plane_of(const Surface& surface, std::size_t t) {
 class Slopes {
  public:
   Slopes() {
-    double s = 0;
-    for (int i = 0; i <= steps; ++i) {
-      const double u = i * step, wanted = 1 + u * u;
-      // Newton's method, with a difference for the derivative: L is smooth and convex.
-      for (int round = 0; round < 8 && i > 0; ++round) {
-        const double small = 1e-6 * std::max(s, 1e-3),
-                     slope = (arc_length(s + small) - arc_length(s)) / small;
-        s += slope > 0 ? (wanted - arc_length(s)) / slope : small;
+    for (std::size_t i = 1; i <= steps; ++i) {
+      const double u = static_cast<double>(i) * step, wanted = 1 + u * u;
+      // Newton's method from the two before, or from L = 1 + s²/4, with a difference for the derivative: L is
+      // smooth and convex.
+      double s = i == 1 ? 2 * u : 2 * values_[i - 1] - values_[i - 2];
+      for (int round = 0; round < 3; ++round) {
+        const double small = 1e-6 * s, length = arc_length(s);
+        s += (wanted - length) * small / (arc_length(s + small) - length);
       }
-      values_[static_cast<std::size_t>(i)] = s;
-      if (i == 0) s = 2 * step;  // L = 1 + s²/4 near 0
+      values_[i] = s;
     }
   }
   double at(double length) const {
@@ -61,7 +60,7 @@ class Slopes {
   }
 
  private:
-  static constexpr int steps = 7000;
+  static constexpr std::size_t steps = 7000;
   static constexpr double step = 1e-3;
   std::array<double, steps + 1> values_{};
 };

@@ -29,22 +29,26 @@ std::string sleeve_with_holes(const TemporaryFolder& folder) {
   return (folder / "sleeve.toml").string();
 }
 
+// The shaders with one line altered, as folder/shaders.
+void write_altered_shaders(const Mutation& mutation, const TemporaryFolder& folder) {
+  std::filesystem::copy(test::source_file("shaders"), folder / "shaders",
+                        std::filesystem::copy_options::recursive);
+  if (mutation.file.empty()) return;
+  const auto path = folder / ("shaders/" + mutation.file);
+  std::string text = read_text(path);
+  const std::size_t at = text.find(mutation.from);
+  ASSERT_NE(at, std::string::npos) << mutation.file << " has no '" << mutation.from
+                                   << "' any more: mend this test";
+  text.replace(at, mutation.from.size(), mutation.to);
+  write_text(path, text);
+}
+
 class Mutations : public Program, public ::testing::WithParamInterface<Mutation> {};
 
 TEST_P(Mutations, AreNoticed) {
   const Mutation& mutation = GetParam();
   const TemporaryFolder folder;
-  std::filesystem::copy(test::source_file("shaders"), folder / "shaders",
-                        std::filesystem::copy_options::recursive);
-  if (!mutation.file.empty()) {
-    const auto path = folder / ("shaders/" + mutation.file);
-    std::string text = read_text(path);
-    const std::size_t at = text.find(mutation.from);
-    ASSERT_NE(at, std::string::npos) << mutation.file << " has no '" << mutation.from
-                                     << "' any more: mend this test";
-    text.replace(at, mutation.from.size(), mutation.to);
-    write_text(path, text);
-  }
+  write_altered_shaders(mutation, folder);
   const std::string report = (folder / "report.json").string();
   const Outcome outcome = plisse({"verify", sleeve_with_holes(folder), "--size", "96x80", "--frames",
                                   "10,40,60", "--shaders", (folder / "shaders").string(), "--json", report});
@@ -138,17 +142,7 @@ TEST_P(FieldMutations, AreNoticed) {
   const Mutation& mutation = GetParam();
   const TemporaryFolder& folder = tube();
   const TemporaryFolder own;
-  std::filesystem::copy(test::source_file("shaders"), own / "shaders",
-                        std::filesystem::copy_options::recursive);
-  if (!mutation.file.empty()) {
-    const auto path = own / ("shaders/" + mutation.file);
-    std::string text = read_text(path);
-    const std::size_t at = text.find(mutation.from);
-    ASSERT_NE(at, std::string::npos) << mutation.file << " has no '" << mutation.from
-                                     << "' any more: mend this test";
-    text.replace(at, mutation.from.size(), mutation.to);
-    write_text(path, text);
-  }
+  write_altered_shaders(mutation, own);
   // The pass is the scene here; waves fade below four pixels.
   const std::string report = (own / "report.json").string();
   const Outcome outcome =
