@@ -57,6 +57,8 @@ class LoadedScene {
   // Error(bad_input) where the field belongs to another surface than that frame's.
   bool has_field_a_frame() const { return !fields_.empty() || has_solved_waves_ || carried_; }
   void take_field(int step);
+  // Whether that is one field which the pose alone decides.
+  bool carries_one_field() const { return carried_.has_value(); }
   // The carried field in the rest pose, or what waves.field is.
   std::vector<FieldTriangle> field_at_rest() const {
     return carried_ ? carried_->in(surface().rest) : waves.field;

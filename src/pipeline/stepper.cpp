@@ -138,6 +138,7 @@ bool Stepper::advance_to(int step) {
       observe(Stage::led);
       descended_ = false;
     }
+    field_due_ = field_due_ || moved || !scene_.carries_one_field();
     unchanged_ = !moved && !crushes && !(share > 0);
     if (unchanged_) ++unchanged_steps_;
     if (scene_.remembers_at(step_)) {
@@ -146,10 +147,10 @@ bool Stepper::advance_to(int step) {
     }
     scene_.drop_poses_before(step_);
   }
-  if (scene_.has_field_a_frame()) {
+  if (scene_.has_field_a_frame() && field_due_) {
     scene_.take_field(step_);
     surface_.carry(scene_.waves.field, scene_.units);
-    unchanged_ = false;
+    field_due_ = unchanged_ = false;
   }
   return true;
 }
@@ -230,6 +231,7 @@ bool Stepper::read_state(const std::filesystem::path& path, const Hash& driver, 
       std::ranges::any_of(waves, [](const glm::vec4& wave) { return wave.z > 0; });
   surface_.counter.write(&any_height, sizeof any_height, 2 * sizeof any_height);
   step_ = header.step;
+  field_due_ = true;
   last_pose_ = scene_.pose(step_);
   int crushed = step_;
   while (!crush_runs_at(crushed)) --crushed;

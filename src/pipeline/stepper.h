@@ -74,6 +74,7 @@ class Stepper {
       remembered_states_;  // of the drawn period's first step, where a loop has to close
   int step_ = 0;
   std::optional<scene::Pose> last_pose_, crushed_pose_;
+  bool field_due_ = true;  // the surface has moved since a field was carried
   bool unchanged_ = false, descended_ = false;
   int unchanged_steps_ = 0, idle_relaxations_ = 0, masked_steps_ = 0;
   bool all_masked_ = false;  // and to be left out
